@@ -1,0 +1,43 @@
+#ifndef TINWRIGHT_BREAKLINES_DOMAIN_HPP
+#define TINWRIGHT_BREAKLINES_DOMAIN_HPP
+
+#include <cstddef>
+
+#include "tinwright/mesh/tin.hpp"
+
+/// Which faces are terrain. Decided on the Delaunay TIN, before anything is optimised.
+namespace tinwright {
+
+struct DomainRule {
+    enum class Kind { Convex, Trimmed, Concave };
+    Kind kind = Kind::Convex;
+    double length = 0;  ///< Concave only: border edges longer than this (CRS units, > 0) are opened
+};
+
+struct DomainReport {
+    std::size_t trimmed_faces = 0;  ///< border faces marked outside by the rule
+    std::size_t void_faces = 0;     ///< faces marked outside by `drop_long_faces`
+};
+
+/// Marks the faces outside the domain; every sample stays on or inside its border, which remains one
+/// closed curve per surface without pinches. Faces already outside stay outside.
+///
+/// Trimmed: as long as there is one, the flattest needle on the border is dropped. A needle is a face with
+/// exactly one border edge, whose opposite vertex is not on the border, and whose height over the border
+/// edge is less than a tenth of that edge: a rule without scale.
+/// Concave: as long as there is one, the longest border edge above `length` is opened, by dropping its face
+/// if the opposite vertex is not on the border.
+/// Returns how many faces were dropped. O(n + b log b), b border faces looked at. Result independent of
+/// vertex numbering up to exact ties, which break on vertex ids.
+std::size_t apply_domain(Tin& tin, const DomainRule& rule);
+
+/// Marks every terrain face with an edge longer than `length` (CRS units, > 0) as outside: voids without
+/// data. Samples may be left without a face. O(n).
+std::size_t drop_long_faces(Tin& tin, double length);
+
+/// Constrains every border edge of the domain, so that nothing done later moves it. O(n).
+void constrain_border(Tin& tin);
+
+}  // namespace tinwright
+
+#endif

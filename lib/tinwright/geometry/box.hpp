@@ -1,0 +1,28 @@
+#ifndef TINWRIGHT_GEOMETRY_BOX_HPP
+#define TINWRIGHT_GEOMETRY_BOX_HPP
+
+#include <algorithm>
+#include <limits>
+
+namespace tinwright {
+
+/// Axis-parallel box in units of the coordinate reference system; empty until something is added.
+struct Box {
+    double x_min = std::numeric_limits<double>::infinity();
+    double y_min = std::numeric_limits<double>::infinity();
+    double x_max = -std::numeric_limits<double>::infinity();
+    double y_max = -std::numeric_limits<double>::infinity();
+
+    void add(double x, double y) {
+        x_min = std::min(x_min, x);
+        y_min = std::min(y_min, y);
+        x_max = std::max(x_max, x);
+        y_max = std::max(y_max, y);
+    }
+    [[nodiscard]] bool is_empty() const { return !(x_min <= x_max); }
+    friend bool operator==(const Box&, const Box&) = default;
+};
+
+}  // namespace tinwright
+
+#endif

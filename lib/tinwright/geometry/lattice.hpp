@@ -1,0 +1,81 @@
+#ifndef TINWRIGHT_GEOMETRY_LATTICE_HPP
+#define TINWRIGHT_GEOMETRY_LATTICE_HPP
+
+#include <span>
+
+#include "tinwright/geometry/box.hpp"
+#include "tinwright/geometry/point.hpp"
+
+namespace tinwright {
+
+/// A lattice point: `x` and `y` hold non-negative integers below 2^45, so sums and differences of
+/// keys are exact in double precision.
+struct Key2 {
+    double x = 0;
+    double y = 0;
+    friend bool operator==(const Key2&, const Key2&) = default;
+};
+
+/// Keys at or beyond this value are refused at ingest (2^45).
+inline constexpr double kKeyLimit = 35184372088832.0;
+
+/// The grid of representable positions: a position is (origin + key) steps of `quantum` CRS units.
+///
+/// Survey coordinates are decimal, and three points of a straight decimal row are not collinear once
+/// each is rounded to binary. On the lattice they are: all geometry runs on keys, and positions are
+/// turned back into CRS units, correctly rounded, only for output. A coordinate that came in on the
+/// lattice goes out bit for bit (a negative zero becomes zero).
+class Lattice {
+  public:
+    Lattice() = default;
+
+    /// Steps of 10^-decimals; `origin` counts steps from zero, |origin + key| below 2^53, decimals 0..22.
+    static Lattice decimal(int decimals, Key2 origin);
+    /// Steps of 2^exponent; same condition on the origin.
+    static Lattice binary(int exponent, Key2 origin, bool is_exact);
+
+    /// Length of one step, CRS units.
+    [[nodiscard]] double quantum() const;
+    /// Number of decimals of a decimal lattice, -1 for a binary one.
+    [[nodiscard]] int decimals() const { return decimals_; }
+    /// Exponent of a binary lattice (its quantum is 2^exponent); 0 for a decimal one.
+    [[nodiscard]] int exponent() const { return exponent_; }
+    /// Position of key (0, 0), in steps from zero.
+    [[nodiscard]] Key2 origin() const { return origin_; }
+    /// Whether every coordinate the lattice was made for lies on it, bit for bit. If not, each moved by
+    /// at most half a quantum.
+    [[nodiscard]] bool is_exact() const { return is_exact_; }
+
+    /// Nearest lattice point, as a key; exact for positions on the lattice.
+    [[nodiscard]] Key2 key(Point2 position) const;
+    /// The position of a key, correctly rounded.
+    [[nodiscard]] Point2 position(Key2 key) const;
+
+    friend bool operator==(const Lattice&, const Lattice&) = default;
+
+  private:
+    Key2 origin_;
+    double scale_ = 1;  // decimal: 10^decimals, a divisor; binary: 2^exponent, a factor
+    int decimals_ = 0;
+    int exponent_ = 0;
+    bool is_exact_ = true;
+};
+
+/// A lattice with the bounding box (CRS units) of the samples it was found from.
+struct FoundLattice {
+    Lattice lattice;
+    Box bounds;
+};
+
+/// Finds the coarsest lattice that holds the samples' x and y: 10^-d with the fewest decimals, else a
+/// power of two. Where no lattice of 2^45 steps holds them all, the finest that spans them (and is no
+/// finer than the floating-point spacing of the largest coordinate) is taken and `is_exact()` is false.
+///
+/// `samples`: n of them, any order; the result does not depend on it. z is not looked at.
+/// Throws InputError naming the first sample with a coordinate that is not finite.
+/// Cost: O(n), parallel inside the caller's task arena. [DESIGN of keys: docs/robustness.md]
+FoundLattice find_lattice(std::span<const Point3> samples);
+
+}  // namespace tinwright
+
+#endif

@@ -1,0 +1,30 @@
+#ifndef TINWRIGHT_GEOMETRY_PREDICATES_HPP
+#define TINWRIGHT_GEOMETRY_PREDICATES_HPP
+
+#include "tinwright/geometry/lattice.hpp"
+
+/// The only place where the sign of a determinant is decided. Every function is exact for keys whose
+/// coordinates are integers of magnitude up to 2^52, and returns -1, 0 or +1.
+namespace tinwright {
+
+/// Side of `c` relative to the directed line a -> b: +1 left (a, b, c counter-clockwise), -1 right, 0 on
+/// the line. Rotating the arguments keeps the sign, swapping two negates it; zero only when collinear.
+int orient2d(Key2 a, Key2 b, Key2 c);
+
+/// Position of `d` relative to the circle through a, b, c (counter-clockwise): +1 inside, -1 outside,
+/// 0 on it. Rotating a, b, c keeps the sign, swapping any two of the four arguments negates it.
+int incircle(Key2 a, Key2 b, Key2 c, Key2 d);
+
+/// As `incircle`, never zero for four distinct points of which a, b, c are counter-clockwise: ties are
+/// broken as if each point were lifted off the paraboloid by an amount that grows without bound along
+/// the lexicographic order (x, then y) of keys. One Delaunay triangulation is thereby singled out,
+/// whatever the order and numbering of the vertices; on a square grid all its diagonals are parallel.
+/// [edelsbrunner1990]
+int incircle_perturbed(Key2 a, Key2 b, Key2 c, Key2 d);
+
+/// Lexicographic order of keys, x before y.
+inline bool precedes(Key2 a, Key2 b) { return a.x < b.x || (a.x == b.x && a.y < b.y); }
+
+}  // namespace tinwright
+
+#endif

@@ -1,0 +1,36 @@
+#ifndef TINWRIGHT_IO_GDAL_SESSION_HPP
+#define TINWRIGHT_IO_GDAL_SESSION_HPP
+
+#include <string>
+
+namespace tinwright::io {
+
+/// Registers GDAL's drivers, once a process. Cheap when called again; called by every reader and writer.
+void register_drivers();
+
+/// While alive, GDAL's messages of this thread are kept instead of printed; the last error is folded into
+/// our own one-line messages.
+class GdalMessages {
+  public:
+    GdalMessages();
+    ~GdalMessages();
+    GdalMessages(const GdalMessages&) = delete;
+    GdalMessages& operator=(const GdalMessages&) = delete;
+
+    /// The last error's text on one line, without a trailing full stop; empty when there was none.
+    [[nodiscard]] std::string last_error() const;
+    /// "; GDAL says: <last error>" or nothing: ready to be appended to a message.
+    [[nodiscard]] std::string suffix() const;
+
+  private:
+    struct State;
+    State* state_;
+};
+
+/// `text` on one line for an error message, in double quotes: control characters, quotes, backslashes and
+/// invalid UTF-8 escaped, long texts shortened in the middle.
+std::string quoted(const std::string& text);
+
+}  // namespace tinwright::io
+
+#endif

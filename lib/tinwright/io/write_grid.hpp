@@ -1,0 +1,53 @@
+#ifndef TINWRIGHT_IO_WRITE_GRID_HPP
+#define TINWRIGHT_IO_WRITE_GRID_HPP
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tinwright/geometry/progress.hpp"
+#include "tinwright/io/crs.hpp"
+#include "tinwright/mesh/tin.hpp"
+#include "tinwright/surface/grid.hpp"
+
+namespace tinwright::io {
+
+struct WriteGridOptions {
+    std::string driver;     ///< GDAL's short name; empty: from the file's extension
+    std::string data_type;  ///< GDAL's name (Float32, Int16, ...); empty: Float32, or what the driver needs
+    std::optional<double> nodata;  ///< default: -9999, or a value outside the data for integer types
+    std::vector<std::string> creation_options;
+    bool overwrite = false;
+    std::string preview;  ///< PNG hillshade to write beside it; empty: none
+    std::vector<std::pair<std::string, std::string>> metadata;
+    int threads = 1;  ///< 0: all processors; the bytes do not depend on it
+    Progress progress;
+};
+
+struct WrittenGrid {
+    std::string driver;
+    std::string data_type;
+    double nodata = -9999;
+    std::int64_t cells_with_value = 0;
+    double interpolate_seconds = 0;
+    double write_seconds = 0;
+    std::vector<std::string> warnings;
+};
+
+/// Geometry of an existing raster, for --like. Throws IoError; InputError for a rotated raster.
+GridGeometry read_grid_geometry(const std::string& path, Crs* crs = nullptr);
+
+/// Checks, before any work is done, that the target's driver can write such a raster. Throws UsageError.
+void check_grid_target(const std::string& target, const WriteGridOptions& options);
+
+/// Interpolates the TIN linearly at the cell centres and writes the raster by bands of rows, under a
+/// temporary name. Throws UsageError, IoError (not enough space, driver failed), InputError (a value does not
+/// fit the data type, nodata collides with the data), Cancelled. Memory: a few bands of at most 64 MiB.
+WrittenGrid write_grid(const Tin& tin, const Crs& crs, const GridGeometry& grid, const std::string& target,
+                       const WriteGridOptions& options);
+
+}  // namespace tinwright::io
+
+#endif
