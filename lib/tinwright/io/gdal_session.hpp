@@ -8,8 +8,9 @@ namespace tinwright::io {
 /// Registers GDAL's drivers, once a process. Cheap when called again; called by every reader and writer.
 void register_drivers();
 
-/// While alive, GDAL's messages of this thread are kept instead of printed; the last error is folded into
-/// our own one-line messages.
+/// While alive, GDAL's messages are kept instead of printed, and the last error is folded into our own
+/// one-line messages. Messages of this thread go to its youngest object, those of threads without one (GDAL's
+/// workers) to the youngest of all. Destroy in reverse order of construction, on the constructing thread.
 class GdalMessages {
   public:
     GdalMessages();
@@ -23,6 +24,7 @@ class GdalMessages {
     [[nodiscard]] std::string suffix() const;
 
   private:
+    friend struct GdalMessageHandler;
     struct State;
     State* state_;
 };
