@@ -1,0 +1,294 @@
+#include "tinwright/delaunay/delaunay.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include <tbb/parallel_invoke.h>
+
+#include "tinwright/geometry/curve.hpp"
+#include "tinwright/geometry/predicates.hpp"
+
+namespace tinwright {
+
+namespace {
+
+using Face = TriangleMesh::Face;
+using Index = std::uint32_t;
+
+constexpr Index kGhost = kGhostVertex.value;
+// Ranges below this are not worth a task of their own.
+constexpr std::size_t kTaskSize = 1U << 13U;
+
+constexpr Index half_edge_of(Index face, Index corner) { return 4 * face + corner; }
+
+// The vertices of a part that are extreme along the axes; ties are broken along the other axis, so that
+// they are corners of the hull (the two ends, when all vertices are collinear).
+struct Extremes {
+    Index left, right, bottom, top;
+};
+
+// Builds the triangulation of a range of the curve from those of its two parts. A part [first, last) owns
+// the face slots [2 first, 2 last - 2), all of them in use; joining two parts takes the two slots between.
+//
+// A ghost face (b, a, ghost) stands for the hull edge a -> b, counter-clockwise: its half-edge 0 is b -> a,
+// half-edge 1 leaves a for the ghost vertex, half-edge 2 comes back from there to b.
+class Builder {
+  public:
+    Builder(std::span<const Key2> keys, std::vector<Face>& faces)
+        : keys_(keys), key_(keys.data()), face_(faces.data()), hull_face_(keys.size()) {}
+
+    Extremes build(std::size_t first, std::size_t last) {
+        const std::size_t count = last - first;
+        if (count == 1) {
+            const auto v = static_cast<Index>(first);
+            return {v, v, v, v};
+        }
+        if (count == 2) {
+            return make_edge(static_cast<Index>(first));
+        }
+        if (count == 3) {
+            const auto a = static_cast<Index>(first);
+            const int turn = orient2d(key_[a], key_[a + 1], key_[a + 2]);
+            if (turn != 0) {
+                return make_triangle(a, turn > 0 ? a + 1 : a + 2, turn > 0 ? a + 2 : a + 1);
+            }
+        }
+        const CurveSplit split = find_curve_split(keys_.subspan(first, count));
+        const std::size_t middle = first + split.middle;
+        Extremes low{};
+        Extremes high{};
+        if (count >= kTaskSize) {
+            tbb::parallel_invoke([&] { low = build(first, middle); }, [&] { high = build(middle, last); });
+        } else {
+            low = build(first, middle);
+            high = build(middle, last);
+        }
+        const bool by_x = split.axis == 0;
+        join(static_cast<Index>(middle), by_x ? low.right : low.top, middle - first == 1,
+             by_x ? high.left : high.bottom, last - middle == 1);
+        return by_x ? Extremes{low.left, high.right, lower(low.bottom, high.bottom), upper(low.top, high.top)}
+                    : Extremes{left(low.left, high.left), right(low.right, high.right), low.bottom, high.top};
+    }
+
+  private:
+    [[nodiscard]] Index left(Index a, Index b) const { return precedes(key_[a], key_[b]) ? a : b; }
+    [[nodiscard]] Index right(Index a, Index b) const { return precedes(key_[a], key_[b]) ? b : a; }
+    [[nodiscard]] bool is_lower(Index a, Index b) const {
+        return key_[a].y < key_[b].y || (key_[a].y == key_[b].y && key_[a].x < key_[b].x);
+    }
+    [[nodiscard]] Index lower(Index a, Index b) const { return is_lower(a, b) ? a : b; }
+    [[nodiscard]] Index upper(Index a, Index b) const { return is_lower(a, b) ? b : a; }
+
+    [[nodiscard]] Index vertex(Index face, Index corner) const { return face_[face].vertex[corner].value; }
+    [[nodiscard]] Index twin(Index h) const { return face_[h >> 2U].twin[h & 3U].value; }
+    void set_face(Index face, Index a, Index b, Index c) { face_[face].vertex = {{{a}, {b}, {c}}}; }
+    void set_twin(Index h, Index other) { face_[h >> 2U].twin[h & 3U].value = other; }
+    void link(Index h, Index g) {
+        set_twin(h, g);
+        set_twin(g, h);
+    }
+
+    [[nodiscard]] int turn(Index a, Index b, Index c) const { return orient2d(key_[a], key_[b], key_[c]); }
+    [[nodiscard]] bool is_inside(Index a, Index b, Index c, Index d) const {
+        return incircle_perturbed(key_[a], key_[b], key_[c], key_[d]) > 0;
+    }
+
+    // Two vertices: the hull goes there and back again.
+    Extremes make_edge(Index a) {
+        const Index b = a + 1;
+        const Index there = 2 * a;
+        const Index back = there + 1;
+        set_face(there, b, a, kGhost);
+        set_face(back, a, b, kGhost);
+        link(half_edge_of(there, 0), half_edge_of(back, 0));
+        link(half_edge_of(there, 1), half_edge_of(back, 2));
+        link(half_edge_of(there, 2), half_edge_of(back, 1));
+        hull_face_[a] = there;
+        hull_face_[b] = back;
+        return {left(a, b), right(a, b), lower(a, b), upper(a, b)};
+    }
+
+    // Three vertices of a range, in counter-clockwise order; `a` is the first of the range.
+    Extremes make_triangle(Index a, Index b, Index c) {
+        const Index inner = 2 * a;
+        set_face(inner, a, b, c);
+        const Index corners[] = {a, b, c};
+        for (Index i = 0; i < 3; ++i) {
+            const Index ghost = inner + 1 + i;
+            const Index next_ghost = inner + 1 + (i + 1) % 3;
+            set_face(ghost, corners[(i + 1) % 3], corners[i], kGhost);
+            link(half_edge_of(inner, i), half_edge_of(ghost, 0));
+            link(half_edge_of(ghost, 2), half_edge_of(next_ghost, 1));
+            hull_face_[corners[i]] = ghost;
+        }
+        return {left(a, left(b, c)), right(a, right(b, c)), lower(a, lower(b, c)), upper(a, upper(b, c))};
+    }
+
+    // The ghost faces of the hull edges before and after a ghost face's own.
+    [[nodiscard]] Index ghost_before(Index ghost) const { return twin(half_edge_of(ghost, 1)) >> 2U; }
+    [[nodiscard]] Index ghost_after(Index ghost) const { return twin(half_edge_of(ghost, 2)) >> 2U; }
+
+    // Joins two parts that a line separates, the left one with vertex u nearest to that line and the right
+    // one with w, by the rising bubble of [guibas1985]: the base edge u w moves from the lower common tangent
+    // of the hulls to the upper one, taking in the ghost faces on either side of the gap.
+    void join(Index middle, Index u, bool u_is_alone, Index w, bool w_is_alone) {
+        // Hull edges that leave and enter u and w, by their ghost faces.
+        Index u_leaves = u_is_alone ? 0 : hull_face_[u];
+        Index u_enters = u_is_alone ? 0 : ghost_before(u_leaves);
+        Index w_leaves = w_is_alone ? 0 : hull_face_[w];
+        Index w_enters = w_is_alone ? 0 : ghost_before(w_leaves);
+        for (bool moved = true; moved;) {
+            moved = false;
+            while (!u_is_alone && turn(u, w, vertex(u_enters, 1)) < 0) {
+                u = vertex(u_enters, 1);
+                u_leaves = std::exchange(u_enters, ghost_before(u_enters));
+                moved = true;
+            }
+            while (!w_is_alone && turn(u, w, vertex(w_leaves, 0)) < 0) {
+                w = vertex(w_leaves, 0);
+                w_enters = std::exchange(w_leaves, ghost_after(w_leaves));
+                moved = true;
+            }
+        }
+
+        // The edge u w with a ghost face on its outer side, and one that rides on the base.
+        const Index outer = 2 * middle - 2;
+        const Index rider = outer + 1;
+        set_face(outer, w, u, kGhost);
+        hull_face_[u] = outer;
+        Index left_link = half_edge_of(outer, 1);
+        Index right_link = half_edge_of(outer, 2);
+        if (!u_is_alone) {
+            link(half_edge_of(outer, 1), half_edge_of(u_enters, 2));
+            left_link = half_edge_of(u_leaves, 1);
+        }
+        if (!w_is_alone) {
+            link(half_edge_of(outer, 2), half_edge_of(w_leaves, 1));
+            right_link = half_edge_of(w_enters, 2);
+        }
+        const Base top = raise({u, w, half_edge_of(outer, 0), left_link, right_link}, u_is_alone, w_is_alone);
+
+        set_face(rider, top.u, top.w, kGhost);
+        link(half_edge_of(rider, 0), top.below);
+        link(half_edge_of(rider, 1), top.right_link);
+        link(half_edge_of(rider, 2), top.left_link);
+        hull_face_[top.w] = rider;
+    }
+
+    // The base edge: its ends, the half-edge w -> u below it, and the half-edges that lead from the ghost
+    // faces above it to its own: u -> ghost on the left, ghost -> w on the right.
+    struct Base {
+        Index u, w;
+        Index below;
+        Index left_link, right_link;
+    };
+
+    Base raise(Base base, bool u_is_alone, bool w_is_alone) {
+        for (;;) {
+            // A lone vertex has no edge to offer; nor has a side whose next vertex is not above the base.
+            const Index p = u_is_alone ? base.w : vertex(base.left_link >> 2U, 0);
+            const Index s = w_is_alone ? base.u : vertex(base.right_link >> 2U, 1);
+            const bool has_left = p != base.w && turn(base.u, base.w, p) > 0;
+            const bool has_right = s != base.u && turn(base.u, base.w, s) > 0;
+            if (!has_left && !has_right) {
+                return base;
+            }
+            const Index left_top = has_left ? clear_left(base, p) : p;
+            const Index right_top = has_right ? clear_right(base, s) : s;
+            if (!has_left || (has_right && is_inside(base.u, base.w, left_top, right_top))) {
+                take_right(base, right_top);
+            } else {
+                take_left(base, left_top);
+            }
+        }
+    }
+
+    // Opens the edges from u into the left part that the base's circle shows not to be Delaunay, by flipping
+    // them to the ghost vertex; returns the end of the first that stays.
+    Index clear_left(const Base& base, Index p) {
+        const Index ghost = base.left_link >> 2U;  // (p, u, ghost)
+        for (;;) {
+            const Index inner = twin(half_edge_of(ghost, 0));  // u -> p
+            const Index face = inner >> 2U;
+            const Index to_q = next(HalfEdgeId{inner}).value;
+            const Index from_q = next(HalfEdgeId{to_q}).value;
+            const Index q = vertex(face, from_q & 3U);
+            if (q == kGhost || !is_inside(base.u, base.w, p, q)) {
+                return p;
+            }
+            const Index beyond_pq = twin(to_q);
+            const Index beyond_qu = twin(from_q);
+            const Index after = twin(half_edge_of(ghost, 2));
+            face_[ghost].vertex[0].value = q;
+            link(half_edge_of(ghost, 0), beyond_qu);
+            set_face(face, p, q, kGhost);
+            link(half_edge_of(face, 0), beyond_pq);
+            link(half_edge_of(face, 1), half_edge_of(ghost, 2));
+            link(half_edge_of(face, 2), after);
+            p = q;
+        }
+    }
+
+    Index clear_right(const Base& base, Index s) {
+        const Index ghost = base.right_link >> 2U;  // (w, s, ghost)
+        for (;;) {
+            const Index inner = twin(half_edge_of(ghost, 0));  // s -> w
+            const Index face = inner >> 2U;
+            const Index to_q = next(HalfEdgeId{inner}).value;
+            const Index from_q = next(HalfEdgeId{to_q}).value;
+            const Index q = vertex(face, from_q & 3U);
+            if (q == kGhost || !is_inside(base.u, base.w, s, q)) {
+                return s;
+            }
+            const Index beyond_wq = twin(to_q);
+            const Index beyond_qs = twin(from_q);
+            const Index before = twin(half_edge_of(ghost, 1));
+            face_[ghost].vertex[1].value = q;
+            link(half_edge_of(ghost, 0), beyond_wq);
+            set_face(face, q, s, kGhost);
+            link(half_edge_of(face, 0), beyond_qs);
+            link(half_edge_of(face, 2), half_edge_of(ghost, 1));
+            link(half_edge_of(face, 1), before);
+            s = q;
+        }
+    }
+
+    // The ghost face (p, u, ghost) becomes the face (p, u, w); the base rises to p w.
+    void take_left(Base& base, Index p) {
+        const Index face = base.left_link >> 2U;
+        face_[face].vertex[2].value = base.w;
+        base.left_link = twin(half_edge_of(face, 2));
+        link(half_edge_of(face, 1), base.below);
+        base.below = half_edge_of(face, 2);
+        base.u = p;
+    }
+
+    // The ghost face (w, s, ghost) becomes the face (w, s, u); the base rises to u s.
+    void take_right(Base& base, Index s) {
+        const Index face = base.right_link >> 2U;
+        face_[face].vertex[2].value = base.u;
+        base.right_link = twin(half_edge_of(face, 1));
+        link(half_edge_of(face, 2), base.below);
+        base.below = half_edge_of(face, 1);
+        base.w = s;
+    }
+
+    std::span<const Key2> keys_;
+    const Key2* key_;
+    Face* face_;
+    // The ghost face of the hull edge that leaves a vertex; kept right for strictly convex corners of the
+    // hull of the part the vertex is in.
+    std::vector<Index> hull_face_;
+};
+
+}  // namespace
+
+TriangleMesh make_delaunay(std::span<const Key2> vertices) {
+    std::vector<Face> faces(2 * vertices.size() - 2);
+    Builder(vertices, faces).build(0, vertices.size());
+    return {vertices.size(), std::move(faces)};
+}
+
+}  // namespace tinwright

@@ -1,0 +1,222 @@
+#include "tinwright/delaunay/sample_vertices.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <string>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_reduce.h>
+
+#include "tinwright/geometry/curve.hpp"
+
+namespace tinwright {
+
+namespace {
+
+constexpr std::size_t kGrain = 1U << 14U;
+constexpr std::size_t kMostSamples = std::size_t{1} << 29U;
+constexpr std::size_t kNamedConflicts = 10;
+
+std::string shortest(double value) {
+    std::array<char, 32> text{};
+    const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
+    return {text.data(), end};
+}
+
+std::string location_text(const Point3& p) { return "(" + shortest(p.x) + ", " + shortest(p.y) + ")"; }
+
+// Whether the number was meant as it stands: at most 15 digits, as no rounding error has.
+bool is_written(double value) {
+    const std::string text = shortest(value);
+    const std::string mantissa = text.substr(0, text.find('e'));
+    const std::size_t first = mantissa.find_first_of("123456789");
+    if (first == std::string::npos) {
+        return true;
+    }
+    return std::count_if(mantissa.begin() + static_cast<std::ptrdiff_t>(first), mantissa.end(),
+                         [](char c) { return c != '.'; }) <= 15;
+}
+
+void check_elevations(std::span<const Point3> samples) {
+    const std::size_t bad = tbb::parallel_reduce(
+        tbb::blocked_range<std::size_t>(0, samples.size(), kGrain), samples.size(),
+        [&](const tbb::blocked_range<std::size_t>& range, std::size_t first) {
+            for (std::size_t i = range.begin(); i != range.end(); ++i) {
+                if (!std::isfinite(samples[i].z)) {
+                    return std::min(first, i);
+                }
+            }
+            return first;
+        },
+        [](std::size_t a, std::size_t b) { return std::min(a, b); });
+    if (bad < samples.size()) {
+        throw InputError("the elevation of the sample at " + location_text(samples[bad]) +
+                             " is not a finite number; remove the sample or give its z",
+                         {bad});
+    }
+}
+
+// Samples that a lattice coarser than the data puts on one key must be one location up to rounding noise.
+void check_merged(const Point3& a, const Point3& b, double noise, const Lattice& lattice,
+                  std::size_t sample_a, std::size_t sample_b) {
+    const auto differ = [&](double u, double v) {
+        return u != v && (std::abs(u - v) > noise || (is_written(u) && is_written(v)));
+    };
+    if (differ(a.x, b.x) || differ(a.y, b.y)) {
+        throw InputError(
+            "the extent of the samples is too large for their detail: " + location_text(a) + " and " +
+                location_text(b) + " are closer than " + shortest(lattice.quantum()) +
+                ", the extent divided by 2^45 = 35184372088832; remove outlying samples or round the "
+                "coordinates",
+            {sample_a, sample_b});
+    }
+}
+
+double elevation(DuplicatePolicy policy, std::span<const std::uint32_t> group,
+                 std::span<const Point3> samples) {
+    if (policy == DuplicatePolicy::First) {
+        return samples[group.front()].z;
+    }
+    if (policy == DuplicatePolicy::Last) {
+        return samples[group.back()].z;
+    }
+    std::vector<double> z(group.size());
+    std::transform(group.begin(), group.end(), z.begin(), [&](std::uint32_t i) { return samples[i].z; });
+    std::sort(z.begin(), z.end());
+    const std::size_t middle = z.size() / 2;
+    switch (policy) {
+        case DuplicatePolicy::Min:
+            return z.front();
+        case DuplicatePolicy::Max:
+            return z.back();
+        case DuplicatePolicy::Median:
+            return z.size() % 2 == 1 ? z[middle] : std::midpoint(z[middle - 1], z[middle]);
+        default:  // the mean, taken from the lowest so that equal elevations give themselves
+            return z.front() + std::accumulate(z.begin(), z.end(), 0.0, [&](double sum, double v) {
+                                   return sum + (v - z.front());
+                               }) / static_cast<double>(z.size());
+    }
+}
+
+class Merger {
+  public:
+    Merger(std::span<const Point3> samples, const DuplicateOptions& options, SampleVertices& out)
+        : samples_(samples), options_(options), out_(out) {
+        const Box& b = out.bounds;
+        const double largest =
+            std::max({std::abs(b.x_min), std::abs(b.x_max), std::abs(b.y_min), std::abs(b.y_max)});
+        noise_ = 16 * (std::nextafter(largest, std::numeric_limits<double>::infinity()) - largest);
+    }
+
+    // `group`: the ascending indices of two or more samples at the vertex's key.
+    void merge(std::size_t vertex, std::span<const std::uint32_t> group) {
+        double z_min = samples_[group.front()].z;
+        double z_max = z_min;
+        for (const std::uint32_t i : group) {
+            z_min = std::min(z_min, samples_[i].z);
+            z_max = std::max(z_max, samples_[i].z);
+            if (!out_.lattice.is_exact()) {
+                check_merged(samples_[group.front()], samples_[i], noise_, out_.lattice, group.front(), i);
+            }
+        }
+        const bool conflicts = z_max - z_min > options_.tolerance;
+        (conflicts ? out_.duplicates.conflicting : out_.duplicates.equal) += group.size() - 1;
+        if (conflicts) {
+            ++conflicting_locations_;
+            if (out_.duplicates.first.size() < kNamedConflicts) {
+                const Point2 location = out_.lattice.position(out_.keys[vertex]);
+                out_.duplicates.first.push_back({location, {group.begin(), group.end()}, z_min, z_max});
+            }
+        }
+        out_.z[vertex] = elevation(options_.policy, group, samples_);
+        out_.sample[vertex] = options_.policy == DuplicatePolicy::Last ? group.back() : group.front();
+    }
+
+    void finish() const {
+        if (conflicting_locations_ == 0 || options_.policy != DuplicatePolicy::Error) {
+            return;
+        }
+        const DuplicateConflict& first = out_.duplicates.first.front();
+        const bool one = conflicting_locations_ == 1;
+        throw DuplicateError(
+            std::to_string(conflicting_locations_) + (one ? " location has" : " locations have") +
+                " samples with different elevations, " + (one ? "at " : "the first at ") +
+                location_text({first.location.x, first.location.y, 0}) + " with z from " +
+                shortest(first.z_min) + " to " + shortest(first.z_max) +
+                "; say which to take with --duplicates first|last|min|max|mean|median, or allow "
+                "for the difference with --duplicate-tolerance",
+            out_.duplicates.first, conflicting_locations_);
+    }
+
+  private:
+    std::span<const Point3> samples_;
+    const DuplicateOptions& options_;
+    SampleVertices& out_;
+    double noise_ = 0;
+    std::size_t conflicting_locations_ = 0;
+};
+
+}  // namespace
+
+SampleVertices make_sample_vertices(std::span<const Point3> samples, const DuplicateOptions& options) {
+    if (samples.size() > kMostSamples) {
+        throw InputError(std::to_string(samples.size()) + " samples are more than the limit of 2^29 = " +
+                         std::to_string(kMostSamples) + "; thin or tile them");
+    }
+    const FoundLattice found = find_lattice(samples);
+    check_elevations(samples);
+
+    SampleVertices out;
+    out.lattice = found.lattice;
+    out.bounds = found.bounds;
+    const auto for_ranges = [&](auto&& body) {
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, samples.size(), kGrain),
+                          [&](const tbb::blocked_range<std::size_t>& range) {
+                              for (std::size_t i = range.begin(); i != range.end(); ++i) {
+                                  body(i);
+                              }
+                          });
+    };
+    {
+        std::vector<Key2> keys(samples.size());
+        for_ranges([&](std::size_t i) { keys[i] = out.lattice.key({samples[i].x, samples[i].y}); });
+        out.sample = sort_along_curve(keys);
+        out.keys.resize(samples.size());
+        for_ranges([&](std::size_t i) { out.keys[i] = keys[out.sample[i]]; });
+    }
+    out.z.resize(samples.size());
+    for_ranges([&](std::size_t i) { out.z[i] = samples[out.sample[i]].z; });
+
+    // Runs of equal keys shrink to one vertex each; nothing moves as long as there is none.
+    Merger merger(samples, options, out);
+    std::size_t vertices = 0;
+    for (std::size_t first = 0; first < out.keys.size();) {
+        std::size_t last = first + 1;
+        while (last < out.keys.size() && out.keys[last] == out.keys[first]) {
+            ++last;
+        }
+        out.keys[vertices] = out.keys[first];
+        out.z[vertices] = out.z[first];
+        if (last - first > 1) {
+            const std::vector<std::uint32_t> group(out.sample.begin() + static_cast<std::ptrdiff_t>(first),
+                                                   out.sample.begin() + static_cast<std::ptrdiff_t>(last));
+            merger.merge(vertices, group);
+        } else {
+            out.sample[vertices] = out.sample[first];
+        }
+        ++vertices;
+        first = last;
+    }
+    merger.finish();
+    out.keys.resize(vertices);
+    out.z.resize(vertices);
+    out.sample.resize(vertices);
+    return out;
+}
+
+}  // namespace tinwright

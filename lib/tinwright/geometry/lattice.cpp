@@ -1,0 +1,196 @@
+#include "tinwright/geometry/lattice.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <string>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
+
+#include "tinwright/geometry/error.hpp"
+
+namespace tinwright {
+
+namespace {
+
+constexpr int kMostDecimals = 22;  // 10^22 is the largest power of ten that a double holds exactly
+constexpr std::array<double, kMostDecimals + 1> kPowersOfTen = {
+    1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
+    1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+
+// Below 2^51, x * 10^d rounds to within half a step of the integer it stands for, and the addition below
+// rounds to an integer.
+constexpr double kStepLimit = 2251799813685248.0;
+
+double nearest_integer(double value) {
+    constexpr double kShift = 6755399441055744.0;  // 1.5 * 2^52: doubles are integers from here on
+    return (value + kShift) - kShift;
+}
+
+bool is_decimal(double value, double power_of_ten) {
+    const double scaled = value * power_of_ten;
+    return std::abs(scaled) < kStepLimit && nearest_integer(scaled) / power_of_ten == value;
+}
+
+struct Survey {
+    Box bounds;
+    int decimals = 0;                                                  // beyond kMostDecimals: not decimal
+    std::size_t not_finite = std::numeric_limits<std::size_t>::max();  // first such sample
+
+    void add(double value) {
+        while (decimals <= kMostDecimals &&
+               !is_decimal(value, kPowersOfTen[static_cast<std::size_t>(decimals)])) {
+            ++decimals;
+        }
+    }
+    static Survey merge(Survey a, const Survey& b) {
+        if (!b.bounds.is_empty()) {
+            a.bounds.add(b.bounds.x_min, b.bounds.y_min);
+            a.bounds.add(b.bounds.x_max, b.bounds.y_max);
+        }
+        a.decimals = std::max(a.decimals, b.decimals);
+        a.not_finite = std::min(a.not_finite, b.not_finite);
+        return a;
+    }
+};
+
+constexpr std::size_t kGrain = 1U << 14U;
+
+Survey survey(std::span<const Point3> samples) {
+    return tbb::parallel_reduce(
+        tbb::blocked_range<std::size_t>(0, samples.size(), kGrain), Survey{},
+        [&](const tbb::blocked_range<std::size_t>& range, Survey seen) {
+            for (std::size_t i = range.begin(); i != range.end(); ++i) {
+                const Point3& sample = samples[i];
+                if (!std::isfinite(sample.x) || !std::isfinite(sample.y)) {
+                    seen.not_finite = std::min(seen.not_finite, i);
+                    continue;
+                }
+                seen.bounds.add(sample.x, sample.y);
+                seen.add(sample.x);
+                seen.add(sample.y);
+            }
+            return seen;
+        },
+        Survey::merge);
+}
+
+// Exponent of the lowest set bit of a finite number; a large number for zero.
+int lowest_bit(double value) {
+    if (value == 0) {
+        return std::numeric_limits<int>::max();
+    }
+    int exponent = 0;
+    const double fraction = std::frexp(value, &exponent);
+    const auto mantissa = static_cast<std::uint64_t>(std::abs(std::ldexp(fraction, 53)));
+    return exponent - 53 + std::countr_zero(mantissa);
+}
+
+int lowest_bit(std::span<const Point3> samples) {
+    return tbb::parallel_reduce(
+        tbb::blocked_range<std::size_t>(0, samples.size(), kGrain), std::numeric_limits<int>::max(),
+        [&](const tbb::blocked_range<std::size_t>& range, int lowest) {
+            for (std::size_t i = range.begin(); i != range.end(); ++i) {
+                lowest = std::min({lowest, lowest_bit(samples[i].x), lowest_bit(samples[i].y)});
+            }
+            return lowest;
+        },
+        [](int a, int b) { return std::min(a, b); });
+}
+
+// Steps from the lower to the upper bound on the wider axis, when a step is `scale` units or 1/scale.
+template <class Snap>
+double widest(const Box& bounds, Snap snap) {
+    return std::max(snap(bounds.x_max) - snap(bounds.x_min), snap(bounds.y_max) - snap(bounds.y_min));
+}
+
+}  // namespace
+
+Lattice Lattice::decimal(int decimals, Key2 origin) {
+    Lattice lattice;
+    lattice.origin_ = origin;
+    lattice.decimals_ = decimals;
+    lattice.scale_ = kPowersOfTen.at(static_cast<std::size_t>(decimals));
+    return lattice;
+}
+
+Lattice Lattice::binary(int exponent, Key2 origin, bool is_exact) {
+    Lattice lattice;
+    lattice.origin_ = origin;
+    lattice.decimals_ = -1;
+    lattice.exponent_ = exponent;
+    lattice.scale_ = std::ldexp(1.0, exponent);
+    lattice.is_exact_ = is_exact;
+    return lattice;
+}
+
+double Lattice::quantum() const { return decimals_ >= 0 ? 1 / scale_ : scale_; }
+
+Key2 Lattice::key(Point2 position) const {
+    if (decimals_ >= 0) {
+        return {nearest_integer(position.x * scale_) - origin_.x,
+                nearest_integer(position.y * scale_) - origin_.y};
+    }
+    return {std::nearbyint(position.x / scale_) - origin_.x, std::nearbyint(position.y / scale_) - origin_.y};
+}
+
+Point2 Lattice::position(Key2 key) const {
+    const double x = origin_.x + key.x;
+    const double y = origin_.y + key.y;
+    return decimals_ >= 0 ? Point2{x / scale_, y / scale_} : Point2{x * scale_, y * scale_};
+}
+
+FoundLattice find_lattice(std::span<const Point3> samples) {
+    const Survey seen = survey(samples);
+    if (seen.not_finite < samples.size()) {
+        throw InputError("a sample's x or y is not a finite number; remove it", {seen.not_finite});
+    }
+    const Box& bounds = seen.bounds;
+    if (bounds.is_empty()) {
+        return {Lattice{}, bounds};
+    }
+    if (seen.decimals <= kMostDecimals) {
+        const Lattice plain = Lattice::decimal(seen.decimals, {});
+        const double power = kPowersOfTen[static_cast<std::size_t>(seen.decimals)];
+        const double steps = widest(bounds, [&](double v) { return nearest_integer(v * power); });
+        if (steps >= kKeyLimit) {
+            const auto text = [](double v) { return std::to_string(static_cast<long long>(v)); };
+            throw InputError("the samples' coordinates have " + std::to_string(seen.decimals) +
+                             " decimals over an extent of " + text(steps) +
+                             " steps of the last one, above the limit of 2^45 = " + text(kKeyLimit) +
+                             "; remove outlying samples or round the coordinates");
+        }
+        return {Lattice::decimal(seen.decimals, plain.key({bounds.x_min, bounds.y_min})), bounds};
+    }
+
+    const double largest = std::max(
+        {std::abs(bounds.x_min), std::abs(bounds.x_max), std::abs(bounds.y_min), std::abs(bounds.y_max)});
+    const double extent = std::max(bounds.x_max - bounds.x_min, bounds.y_max - bounds.y_min);
+    const auto fits = [&](int exponent) {
+        const double step = std::ldexp(1.0, exponent);
+        return std::isfinite(extent) && step > 0 && largest / step < kStepLimit * 4 &&
+               widest(bounds, [&](double v) { return std::nearbyint(v / step); }) < kKeyLimit;
+    };
+    int exponent = lowest_bit(samples);
+    const bool is_exact = fits(exponent);
+    if (!is_exact) {
+        // No finer than the spacing of doubles at the largest coordinate, as coarse as the limit demands.
+        exponent = std::ilogb(largest) - 52;
+        while (std::isfinite(extent) && !fits(exponent)) {
+            ++exponent;
+        }
+        if (!std::isfinite(extent) || !(std::ldexp(1.0, exponent) > 0)) {
+            throw InputError(
+                "the samples' coordinates span the whole range of floating-point numbers; "
+                "remove outlying samples");
+        }
+    }
+    const Lattice plain = Lattice::binary(exponent, {}, is_exact);
+    return {Lattice::binary(exponent, plain.key({bounds.x_min, bounds.y_min}), is_exact), bounds};
+}
+
+}  // namespace tinwright

@@ -1,0 +1,184 @@
+#include "tinwright/geometry/predicates.hpp"
+
+#include <cmath>
+#include <cstdint>
+
+#include "tinwright/geometry/predicates_internal.hpp"
+
+namespace tinwright {
+
+namespace {
+
+__extension__ using Int128 = __int128;
+__extension__ using UInt128 = unsigned __int128;
+
+// Integers of this magnitude and below are exact in a double.
+constexpr double kExactIntegers = 9007199254740992.0;  // 2^53
+constexpr double kUnit = 1.0 / kExactIntegers;         // half a unit in the last place of 1
+
+template <class Number>
+int sign(Number value) {
+    return (value > 0) - (value < 0);
+}
+
+std::int64_t difference(double a, double b) { return static_cast<std::int64_t>(a - b); }
+
+// A 256-bit integer in two's complement.
+struct Int256 {
+    UInt128 high = 0;
+    UInt128 low = 0;
+
+    Int256& operator+=(const Int256& other) {
+        low += other.low;
+        high += other.high + (low < other.low ? 1U : 0U);
+        return *this;
+    }
+    [[nodiscard]] int sign() const {
+        if ((high >> 127U) != 0) {
+            return -1;
+        }
+        return (high | low) != 0 ? 1 : 0;
+    }
+};
+
+UInt128 magnitude(Int128 value) {
+    return value < 0 ? UInt128{0} - static_cast<UInt128>(value) : static_cast<UInt128>(value);
+}
+
+// Schoolbook product of magnitudes on 64-bit halves.
+Int256 product(Int128 a, Int128 b) {
+    const UInt128 ua = magnitude(a);
+    const UInt128 ub = magnitude(b);
+    const UInt128 mask = ~std::uint64_t{0};
+    const UInt128 low_low = (ua & mask) * (ub & mask);
+    const UInt128 high_low = (ua >> 64U) * (ub & mask);
+    const UInt128 low_high = (ua & mask) * (ub >> 64U);
+    const UInt128 high_high = (ua >> 64U) * (ub >> 64U);
+    const UInt128 middle = (low_low >> 64U) + (high_low & mask) + (low_high & mask);
+    Int256 result{high_high + (high_low >> 64U) + (low_high >> 64U) + (middle >> 64U),
+                  (low_low & mask) | (middle << 64U)};
+    if ((a < 0) != (b < 0)) {
+        result.low = UInt128{0} - result.low;
+        result.high = ~result.high + (result.low == 0 ? 1U : 0U);
+    }
+    return result;
+}
+
+}  // namespace
+
+namespace internal {
+
+std::optional<int> orient2d_double(Key2 a, Key2 b, Key2 c) {
+    const double left = (a.x - c.x) * (b.y - c.y);
+    const double right = (a.y - c.y) * (b.x - c.x);
+    const double det = left - right;
+    const double size = std::abs(left) + std::abs(right);
+    // Each product errs by at most one unit of itself, the difference by one of the result; 4 covers
+    // the rounding of `size` too.
+    if (std::abs(det) > 4 * kUnit * size || size < kExactIntegers) {
+        return sign(det);
+    }
+    return std::nullopt;
+}
+
+int orient2d_int128(Key2 a, Key2 b, Key2 c) {
+    const Int128 left = static_cast<Int128>(difference(a.x, c.x)) * difference(b.y, c.y);
+    const Int128 right = static_cast<Int128>(difference(a.y, c.y)) * difference(b.x, c.x);
+    return sign(left - right);
+}
+
+std::optional<int> incircle_double(Key2 a, Key2 b, Key2 c, Key2 d) {
+    const double ax = a.x - d.x;
+    const double ay = a.y - d.y;
+    const double bx = b.x - d.x;
+    const double by = b.y - d.y;
+    const double cx = c.x - d.x;
+    const double cy = c.y - d.y;
+    const double aa = ax * ax + ay * ay;
+    const double bb = bx * bx + by * by;
+    const double cc = cx * cx + cy * cy;
+    const double det = aa * (bx * cy - by * cx) + bb * (cx * ay - cy * ax) + cc * (ax * by - ay * bx);
+    // |a|^2 |b x c| <= |a|^2 |b||c| <= |a|^2 (|b|^2 + |c|^2) / 2, likewise for the other two terms.
+    const double size = aa * (bb + cc) + bb * cc;
+    // A term errs by 2 units for its square, 2 for its cross product and 1 for their product, the two sums
+    // by 2 more, and `size` itself by less than 3: 12 is ample. Below 2^53 nothing rounds at all.
+    if (std::abs(det) > 12 * kUnit * size || size < kExactIntegers) {
+        return sign(det);
+    }
+    return std::nullopt;
+}
+
+std::optional<int> incircle_int128(Key2 a, Key2 b, Key2 c, Key2 d) {
+    // Squares and cross products stay below 2^61, their products below 2^122, the sum below 2^124.
+    constexpr double kLimit = 1073741824.0;  // 2^30
+    const double ax = a.x - d.x;
+    const double ay = a.y - d.y;
+    const double bx = b.x - d.x;
+    const double by = b.y - d.y;
+    const double cx = c.x - d.x;
+    const double cy = c.y - d.y;
+    for (const double difference : {ax, ay, bx, by, cx, cy}) {
+        if (std::abs(difference) > kLimit) {
+            return std::nullopt;
+        }
+    }
+    const auto integer = [](double value) { return static_cast<std::int64_t>(value); };
+    const auto term = [&](double px, double py, double qx, double qy, double rx, double ry) {
+        const std::int64_t square = integer(px) * integer(px) + integer(py) * integer(py);
+        const std::int64_t cross = integer(qx) * integer(ry) - integer(qy) * integer(rx);
+        return static_cast<Int128>(square) * cross;
+    };
+    return sign(term(ax, ay, bx, by, cx, cy) + term(bx, by, cx, cy, ax, ay) + term(cx, cy, ax, ay, bx, by));
+}
+
+int incircle_int256(Key2 a, Key2 b, Key2 c, Key2 d) {
+    // Differences stay below 2^54, squares and cross products below 2^109, the sum below 2^220.
+    const Int128 ax = difference(a.x, d.x);
+    const Int128 ay = difference(a.y, d.y);
+    const Int128 bx = difference(b.x, d.x);
+    const Int128 by = difference(b.y, d.y);
+    const Int128 cx = difference(c.x, d.x);
+    const Int128 cy = difference(c.y, d.y);
+    Int256 sum = product(ax * ax + ay * ay, bx * cy - by * cx);
+    sum += product(bx * bx + by * by, cx * ay - cy * ax);
+    sum += product(cx * cx + cy * cy, ax * by - ay * bx);
+    return sum.sign();
+}
+
+int incircle_tie(Key2 a, Key2 b, Key2 c, Key2 d) {
+    // Lifting a point changes the determinant by the orientation of the other three; the last point in
+    // lexicographic order is lifted incomparably more than the rest. No three of four co-circular points
+    // are collinear, so this one orientation decides.
+    const Key2 last_ab = precedes(a, b) ? b : a;
+    const Key2 last_cd = precedes(c, d) ? d : c;
+    const Key2 last = precedes(last_ab, last_cd) ? last_cd : last_ab;
+    if (last == d) {
+        return -orient2d(a, b, c);
+    }
+    if (last == a) {
+        return orient2d(b, c, d);
+    }
+    return last == b ? orient2d(c, a, d) : orient2d(a, b, d);
+}
+
+}  // namespace internal
+
+int orient2d(Key2 a, Key2 b, Key2 c) {
+    const std::optional<int> fast = internal::orient2d_double(a, b, c);
+    return fast ? *fast : internal::orient2d_int128(a, b, c);
+}
+
+int incircle(Key2 a, Key2 b, Key2 c, Key2 d) {
+    if (const std::optional<int> fast = internal::incircle_double(a, b, c, d)) {
+        return *fast;
+    }
+    const std::optional<int> medium = internal::incircle_int128(a, b, c, d);
+    return medium ? *medium : internal::incircle_int256(a, b, c, d);
+}
+
+int incircle_perturbed(Key2 a, Key2 b, Key2 c, Key2 d) {
+    const int exact = incircle(a, b, c, d);
+    return exact != 0 ? exact : internal::incircle_tie(a, b, c, d);
+}
+
+}  // namespace tinwright
