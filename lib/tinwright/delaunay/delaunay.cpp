@@ -9,6 +9,7 @@
 
 #include "tinwright/geometry/curve.hpp"
 #include "tinwright/geometry/predicates.hpp"
+#include "tinwright/geometry/predicates_internal.hpp"
 
 namespace tinwright {
 
@@ -91,8 +92,25 @@ class Builder {
     }
 
     [[nodiscard]] int turn(Index a, Index b, Index c) const { return orient2d(key_[a], key_[b], key_[c]); }
-    [[nodiscard]] bool is_inside(Index a, Index b, Index c, Index d) const {
-        return incircle_perturbed(key_[a], key_[b], key_[c], key_[d]) > 0;
+
+    // A vertex seen from the base's left end.
+    struct Seen {
+        Index vertex;
+        internal::LocalKey at;
+    };
+    [[nodiscard]] Seen see(Index u, Index v) const { return {v, internal::localize(key_[v], key_[u])}; }
+    [[nodiscard]] bool is_left_turn(Index u, const Seen& w, const Seen& p) const {
+        const int fast = internal::orient2d_local(w.at, p.at);
+        return (fast != internal::kUnsure ? fast : turn(u, w.vertex, p.vertex)) > 0;
+    }
+    // Whether q is inside the circle through u, w, p (counter-clockwise); ties are broken.
+    [[nodiscard]] bool is_inside(Index u, const Seen& w, const Seen& p, const Seen& q) const {
+        // Putting the origin first instead of last is an odd permutation, undone by swapping p and q.
+        const int fast = internal::incircle_local(w.at, q.at, p.at);
+        if (fast == 1 || fast == -1) {
+            return fast > 0;
+        }
+        return incircle_perturbed(key_[u], key_[w.vertex], key_[p.vertex], key_[q.vertex]) > 0;
     }
 
     // Two vertices: the hull goes there and back again.
@@ -188,42 +206,49 @@ class Builder {
     Base raise(Base base, bool u_is_alone, bool w_is_alone) {
         for (;;) {
             // A lone vertex has no edge to offer; nor has a side whose next vertex is not above the base.
-            const Index p = u_is_alone ? base.w : vertex(base.left_link >> 2U, 0);
-            const Index s = w_is_alone ? base.u : vertex(base.right_link >> 2U, 1);
-            const bool has_left = p != base.w && turn(base.u, base.w, p) > 0;
-            const bool has_right = s != base.u && turn(base.u, base.w, s) > 0;
-            if (!has_left && !has_right) {
+            const Index u = base.u;
+            const Seen w = see(u, base.w);
+            Seen p = see(u, u_is_alone ? base.w : vertex(base.left_link >> 2U, 0));
+            Seen s = see(u, w_is_alone ? u : vertex(base.right_link >> 2U, 1));
+            const bool has_left = p.vertex != base.w && is_left_turn(u, w, p);
+            const bool has_right = s.vertex != u && is_left_turn(u, w, s);
+            if (has_left) {
+                clear_left(base, w, p);
+            } else if (!has_right) {
                 return base;
             }
-            const Index left_top = has_left ? clear_left(base, p) : p;
-            const Index right_top = has_right ? clear_right(base, s) : s;
-            if (!has_left || (has_right && is_inside(base.u, base.w, left_top, right_top))) {
-                take_right(base, right_top);
+            if (has_right) {
+                clear_right(base, w, s);
+            }
+            if (!has_left || (has_right && is_inside(u, w, p, s))) {
+                take_right(base, s.vertex);
             } else {
-                take_left(base, left_top);
+                take_left(base, p.vertex);
             }
         }
     }
 
     // Opens the edges from u into the left part that the base's circle shows not to be Delaunay, by flipping
-    // them to the ghost vertex; returns the end of the first that stays.
-    Index clear_left(const Base& base, Index p) {
+    // them to the ghost vertex; p becomes the end of the first that stays.
+    void clear_left(const Base& base, const Seen& w, Seen& p) {
         const Index ghost = base.left_link >> 2U;  // (p, u, ghost)
         for (;;) {
-            const Index inner = twin(half_edge_of(ghost, 0));  // u -> p
-            const Index face = inner >> 2U;
-            const Index to_q = next(HalfEdgeId{inner}).value;
-            const Index from_q = next(HalfEdgeId{to_q}).value;
-            const Index q = vertex(face, from_q & 3U);
-            if (q == kGhost || !is_inside(base.u, base.w, p, q)) {
-                return p;
+            const HalfEdgeId inner{twin(half_edge_of(ghost, 0))};  // u -> p
+            const Index face = face_of(inner).value;
+            const Index from_q = previous(inner).value;
+            if (vertex(face, from_q & 3U) == kGhost) {
+                return;
             }
-            const Index beyond_pq = twin(to_q);
+            const Seen q = see(base.u, vertex(face, from_q & 3U));
+            if (!is_inside(base.u, w, p, q)) {
+                return;
+            }
+            const Index beyond_pq = twin(next(inner).value);
             const Index beyond_qu = twin(from_q);
             const Index after = twin(half_edge_of(ghost, 2));
-            face_[ghost].vertex[0].value = q;
+            face_[ghost].vertex[0].value = q.vertex;
             link(half_edge_of(ghost, 0), beyond_qu);
-            set_face(face, p, q, kGhost);
+            set_face(face, p.vertex, q.vertex, kGhost);
             link(half_edge_of(face, 0), beyond_pq);
             link(half_edge_of(face, 1), half_edge_of(ghost, 2));
             link(half_edge_of(face, 2), after);
@@ -231,23 +256,26 @@ class Builder {
         }
     }
 
-    Index clear_right(const Base& base, Index s) {
+    // The same for the edges from w into the right part.
+    void clear_right(const Base& base, const Seen& w, Seen& s) {
         const Index ghost = base.right_link >> 2U;  // (w, s, ghost)
         for (;;) {
-            const Index inner = twin(half_edge_of(ghost, 0));  // s -> w
-            const Index face = inner >> 2U;
-            const Index to_q = next(HalfEdgeId{inner}).value;
-            const Index from_q = next(HalfEdgeId{to_q}).value;
-            const Index q = vertex(face, from_q & 3U);
-            if (q == kGhost || !is_inside(base.u, base.w, s, q)) {
-                return s;
+            const HalfEdgeId inner{twin(half_edge_of(ghost, 0))};  // s -> w
+            const Index face = face_of(inner).value;
+            const Index from_q = previous(inner).value;
+            if (vertex(face, from_q & 3U) == kGhost) {
+                return;
             }
-            const Index beyond_wq = twin(to_q);
+            const Seen q = see(base.u, vertex(face, from_q & 3U));
+            if (!is_inside(base.u, w, s, q)) {
+                return;
+            }
+            const Index beyond_wq = twin(next(inner).value);
             const Index beyond_qs = twin(from_q);
             const Index before = twin(half_edge_of(ghost, 1));
-            face_[ghost].vertex[1].value = q;
+            face_[ghost].vertex[1].value = q.vertex;
             link(half_edge_of(ghost, 0), beyond_wq);
-            set_face(face, q, s, kGhost);
+            set_face(face, q.vertex, s.vertex, kGhost);
             link(half_edge_of(face, 0), beyond_qs);
             link(half_edge_of(face, 2), half_edge_of(ghost, 1));
             link(half_edge_of(face, 1), before);

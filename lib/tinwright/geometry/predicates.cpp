@@ -12,10 +12,6 @@ namespace {
 __extension__ using Int128 = __int128;
 __extension__ using UInt128 = unsigned __int128;
 
-// Integers of this magnitude and below are exact in a double.
-constexpr double kExactIntegers = 9007199254740992.0;  // 2^53
-constexpr double kUnit = 1.0 / kExactIntegers;         // half a unit in the last place of 1
-
 template <class Number>
 int sign(Number value) {
     return (value > 0) - (value < 0);
@@ -68,47 +64,13 @@ Int256 product(Int128 a, Int128 b) {
 
 namespace internal {
 
-std::optional<int> orient2d_double(Key2 a, Key2 b, Key2 c) {
-    const double left = (a.x - c.x) * (b.y - c.y);
-    const double right = (a.y - c.y) * (b.x - c.x);
-    const double det = left - right;
-    const double size = std::abs(left) + std::abs(right);
-    // Each product errs by at most one unit of itself, the difference by one of the result; 4 covers
-    // the rounding of `size` too.
-    if (std::abs(det) > 4 * kUnit * size || size < kExactIntegers) {
-        return sign(det);
-    }
-    return std::nullopt;
-}
-
 int orient2d_int128(Key2 a, Key2 b, Key2 c) {
     const Int128 left = static_cast<Int128>(difference(a.x, c.x)) * difference(b.y, c.y);
     const Int128 right = static_cast<Int128>(difference(a.y, c.y)) * difference(b.x, c.x);
     return sign(left - right);
 }
 
-std::optional<int> incircle_double(Key2 a, Key2 b, Key2 c, Key2 d) {
-    const double ax = a.x - d.x;
-    const double ay = a.y - d.y;
-    const double bx = b.x - d.x;
-    const double by = b.y - d.y;
-    const double cx = c.x - d.x;
-    const double cy = c.y - d.y;
-    const double aa = ax * ax + ay * ay;
-    const double bb = bx * bx + by * by;
-    const double cc = cx * cx + cy * cy;
-    const double det = aa * (bx * cy - by * cx) + bb * (cx * ay - cy * ax) + cc * (ax * by - ay * bx);
-    // |a|^2 |b x c| <= |a|^2 |b||c| <= |a|^2 (|b|^2 + |c|^2) / 2, likewise for the other two terms.
-    const double size = aa * (bb + cc) + bb * cc;
-    // A term errs by 2 units for its square, 2 for its cross product and 1 for their product, the two sums
-    // by 2 more, and `size` itself by less than 3: 12 is ample. Below 2^53 nothing rounds at all.
-    if (std::abs(det) > 12 * kUnit * size || size < kExactIntegers) {
-        return sign(det);
-    }
-    return std::nullopt;
-}
-
-std::optional<int> incircle_int128(Key2 a, Key2 b, Key2 c, Key2 d) {
+int incircle_int128(Key2 a, Key2 b, Key2 c, Key2 d) {
     // Squares and cross products stay below 2^61, their products below 2^122, the sum below 2^124.
     constexpr double kLimit = 1073741824.0;  // 2^30
     const double ax = a.x - d.x;
@@ -119,7 +81,7 @@ std::optional<int> incircle_int128(Key2 a, Key2 b, Key2 c, Key2 d) {
     const double cy = c.y - d.y;
     for (const double difference : {ax, ay, bx, by, cx, cy}) {
         if (std::abs(difference) > kLimit) {
-            return std::nullopt;
+            return kUnsure;
         }
     }
     const auto integer = [](double value) { return static_cast<std::int64_t>(value); };
@@ -164,16 +126,17 @@ int incircle_tie(Key2 a, Key2 b, Key2 c, Key2 d) {
 }  // namespace internal
 
 int orient2d(Key2 a, Key2 b, Key2 c) {
-    const std::optional<int> fast = internal::orient2d_double(a, b, c);
-    return fast ? *fast : internal::orient2d_int128(a, b, c);
+    const int fast = internal::orient2d_double(a, b, c);
+    return fast != internal::kUnsure ? fast : internal::orient2d_int128(a, b, c);
 }
 
 int incircle(Key2 a, Key2 b, Key2 c, Key2 d) {
-    if (const std::optional<int> fast = internal::incircle_double(a, b, c, d)) {
-        return *fast;
+    const int fast = internal::incircle_double(a, b, c, d);
+    if (fast != internal::kUnsure) {
+        return fast;
     }
-    const std::optional<int> medium = internal::incircle_int128(a, b, c, d);
-    return medium ? *medium : internal::incircle_int256(a, b, c, d);
+    const int medium = internal::incircle_int128(a, b, c, d);
+    return medium != internal::kUnsure ? medium : internal::incircle_int256(a, b, c, d);
 }
 
 int incircle_perturbed(Key2 a, Key2 b, Key2 c, Key2 d) {

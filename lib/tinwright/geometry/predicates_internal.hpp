@@ -1,24 +1,80 @@
 #ifndef TINWRIGHT_GEOMETRY_PREDICATES_INTERNAL_HPP
 #define TINWRIGHT_GEOMETRY_PREDICATES_INTERNAL_HPP
 
-#include <optional>
+#include <cmath>
 
 #include "tinwright/geometry/lattice.hpp"
 
-/// The tiers behind the predicates, opened to their tests. A tier that answers is right; one that cannot
-/// tell says nothing, and the next is asked.
+/// The tiers behind the predicates, opened to their tests and to the loop of the Delaunay construction. A
+/// tier that answers is right; one that cannot tell says `kUnsure`, and the next is asked.
+///
+/// The double tier is inline, hence every file that includes this header is built without contraction of
+/// multiply and add; it is not installed.
 namespace tinwright::internal {
 
-/// Double precision: differences of keys are exact, so only products and sums round. Answers when the
-/// determinant exceeds its error bound, or when every intermediate is an integer below 2^53.
-std::optional<int> orient2d_double(Key2 a, Key2 b, Key2 c);
+inline constexpr int kUnsure = 2;
+
+/// Integers of this magnitude and below are exact in a double (2^53).
+inline constexpr double kExactIntegers = 9007199254740992.0;
+/// Half a unit in the last place of 1.
+inline constexpr double kUnit = 1.0 / kExactIntegers;
+
+inline int sign_of(double value) { return (value > 0) - (value < 0); }
+
+/// A key seen from another, with its squared distance. Coordinates are exact; the square rounds.
+struct LocalKey {
+    double x = 0;
+    double y = 0;
+    double square = 0;
+};
+
+inline LocalKey localize(Key2 key, Key2 origin) {
+    const double x = key.x - origin.x;
+    const double y = key.y - origin.y;
+    return {x, y, x * x + y * y};
+}
+
+/// Sign of (origin, a, b). Answers when the determinant exceeds its error bound, or when every
+/// intermediate is an integer below 2^53.
+inline int orient2d_local(const LocalKey& a, const LocalKey& b) {
+    const double left = a.x * b.y;
+    const double right = a.y * b.x;
+    const double det = left - right;
+    const double size = std::abs(left) + std::abs(right);
+    // Each product errs by at most one unit of itself, the difference by one of the result; 4 covers
+    // the rounding of `size` too.
+    if (std::abs(det) > 4 * kUnit * size || size < kExactIntegers) {
+        return sign_of(det);
+    }
+    return kUnsure;
+}
+
+/// Position of the origin relative to the circle through a, b, c (counter-clockwise): +1 inside. With the
+/// usual permanent replaced by a bound that takes five operations.
+inline int incircle_local(const LocalKey& a, const LocalKey& b, const LocalKey& c) {
+    const double det = a.square * (b.x * c.y - b.y * c.x) + b.square * (c.x * a.y - c.y * a.x) +
+                       c.square * (a.x * b.y - a.y * b.x);
+    // |a|^2 |b x c| <= |a|^2 |b||c| <= |a|^2 (|b|^2 + |c|^2) / 2, likewise for the other two terms.
+    const double size = a.square * (b.square + c.square) + b.square * c.square;
+    // A term errs by 2 units for its square, 2 for its cross product and 1 for their product, the two sums
+    // by 2 more, and `size` itself by less than 3: 12 is ample. Below 2^53 nothing rounds at all.
+    if (std::abs(det) > 12 * kUnit * size || size < kExactIntegers) {
+        return sign_of(det);
+    }
+    return kUnsure;
+}
+
+/// Double precision: differences of keys are exact, so only products and sums round.
+inline int orient2d_double(Key2 a, Key2 b, Key2 c) { return orient2d_local(localize(a, c), localize(b, c)); }
 /// 128-bit integers; always answers.
 int orient2d_int128(Key2 a, Key2 b, Key2 c);
 
-/// As `orient2d_double`; the bound on the error uses |u x v| <= |u||v| in place of the usual permanent.
-std::optional<int> incircle_double(Key2 a, Key2 b, Key2 c, Key2 d);
+/// As `orient2d_double`.
+inline int incircle_double(Key2 a, Key2 b, Key2 c, Key2 d) {
+    return incircle_local(localize(a, d), localize(b, d), localize(c, d));
+}
 /// 128-bit integers; answers when all coordinate differences to d are at most 2^30.
-std::optional<int> incircle_int128(Key2 a, Key2 b, Key2 c, Key2 d);
+int incircle_int128(Key2 a, Key2 b, Key2 c, Key2 d);
 /// 256-bit integers; always answers.
 int incircle_int256(Key2 a, Key2 b, Key2 c, Key2 d);
 
