@@ -1,0 +1,143 @@
+#include "tinwright/breaklines/domain.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <queue>
+#include <tuple>
+#include <vector>
+
+#include "tinwright/geometry/decimal.hpp"
+
+namespace tinwright {
+
+namespace {
+
+constexpr double kNeedleRatio = 0.1;  // height over the border edge, by the edge's length
+
+/// A border edge that could be opened by dropping its face.
+struct Opening {
+    double rank = 0;  ///< the smaller, the sooner
+    HalfEdgeId edge;  ///< in the face
+    std::array<VertexId, 3> vertex;
+
+    friend bool operator<(const Opening& a, const Opening& b) {
+        return std::tie(a.rank, a.vertex) > std::tie(b.rank, b.vertex);  // the queue's top is the greatest
+    }
+};
+
+double squared_length(const Tin& tin, HalfEdgeId h) {
+    const Key2 a = tin.key(tin.mesh.origin(h));
+    const Key2 b = tin.key(tin.mesh.destination(h));
+    const double dx = b.x - a.x;
+    const double dy = b.y - a.y;
+    return dx * dx + dy * dy;
+}
+
+/// Height of a face over one of its edges, by the edge's length.
+double height_ratio(const Tin& tin, HalfEdgeId h) {
+    const Key2 a = tin.key(tin.mesh.origin(h));
+    const Key2 b = tin.key(tin.mesh.destination(h));
+    const Key2 c = tin.key(tin.mesh.origin(previous(h)));
+    // In 128 bits, which hold it: differences of keys are whole numbers below 2^45.
+    const Int128 doubled_area = static_cast<Int128>(b.x - a.x) * static_cast<Int128>(c.y - a.y) -
+                                static_cast<Int128>(b.y - a.y) * static_cast<Int128>(c.x - a.x);
+    return static_cast<double>(doubled_area) / squared_length(tin, h);
+}
+
+/// `length` in keys; where it is decimal and so is the lattice, exactly the number meant.
+double squared_in_keys(const Lattice& lattice, double length) {
+    const double keys = lattice.decimals() >= 0 ? scaled_decimal(length, lattice.decimals())
+                                                : std::ldexp(length, -lattice.exponent());
+    return keys * keys;
+}
+
+/// Opens border edges, best rank first, as long as the opposite vertex is not on the border. `rank_of(h)`
+/// must be negative for edges to be opened.
+template <class RankOf>
+std::size_t open_border(Tin& tin, const RankOf& rank_of) {
+    TriangleMesh& mesh = tin.mesh;
+    std::vector<bool> is_on_border(mesh.vertex_count());
+    std::priority_queue<Opening> queue;
+    std::vector<HalfEdgeId> border;
+    for (std::uint32_t f = 0; f < mesh.slot_count(); ++f) {
+        for (unsigned corner = 0; corner < 3; ++corner) {
+            const HalfEdgeId h = half_edge({f}, corner);
+            if (mesh.is_terrain({f}) && mesh.is_border(h)) {
+                border.push_back(h);
+                is_on_border[mesh.origin(h).value] = true;
+                is_on_border[mesh.destination(h).value] = true;
+            }
+        }
+    }
+    const auto consider = [&](HalfEdgeId h) {
+        const VertexId apex = mesh.origin(previous(h));
+        if (is_on_border[apex.value]) {
+            return;
+        }
+        const double rank = rank_of(h);
+        if (rank < 0) {
+            queue.push({rank, h, {mesh.origin(h), mesh.destination(h), apex}});
+        }
+    };
+    for (const HalfEdgeId h : border) {
+        consider(h);
+    }
+    std::size_t dropped = 0;
+    while (!queue.empty()) {
+        const Opening opening = queue.top();
+        queue.pop();
+        if (is_on_border[opening.vertex[2].value]) {
+            continue;
+        }
+        mesh.set_terrain(face_of(opening.edge), false);
+        is_on_border[opening.vertex[2].value] = true;
+        ++dropped;
+        consider(mesh.twin(next(opening.edge)));
+        consider(mesh.twin(previous(opening.edge)));
+    }
+    return dropped;
+}
+
+}  // namespace
+
+std::size_t apply_domain(Tin& tin, const DomainRule& rule) {
+    if (rule.kind == DomainRule::Kind::Trimmed) {
+        return open_border(tin, [&](HalfEdgeId h) { return height_ratio(tin, h) - kNeedleRatio; });
+    }
+    if (rule.kind == DomainRule::Kind::Concave) {
+        const double limit = squared_in_keys(tin.lattice, rule.length);
+        return open_border(tin, [&](HalfEdgeId h) { return limit - squared_length(tin, h); });
+    }
+    return 0;
+}
+
+std::size_t drop_long_faces(Tin& tin, double length) {
+    const double limit = squared_in_keys(tin.lattice, length);
+    std::size_t dropped = 0;
+    for (std::uint32_t f = 0; f < tin.mesh.slot_count(); ++f) {
+        if (!tin.mesh.is_terrain({f})) {
+            continue;
+        }
+        if (squared_length(tin, half_edge({f}, 0)) > limit ||
+            squared_length(tin, half_edge({f}, 1)) > limit ||
+            squared_length(tin, half_edge({f}, 2)) > limit) {
+            tin.mesh.set_terrain({f}, false);
+            ++dropped;
+        }
+    }
+    return dropped;
+}
+
+void constrain_border(Tin& tin) {
+    for (std::uint32_t f = 0; f < tin.mesh.slot_count(); ++f) {
+        for (unsigned corner = 0; corner < 3; ++corner) {
+            const HalfEdgeId h = half_edge({f}, corner);
+            if (tin.mesh.is_terrain({f}) && tin.mesh.is_border(h)) {
+                tin.mesh.set_constrained(h, true);
+            }
+        }
+    }
+}
+
+}  // namespace tinwright
