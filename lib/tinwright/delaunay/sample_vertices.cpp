@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numeric>
 #include <string>
 
@@ -77,17 +78,8 @@ void check_merged(const Point3& a, const Point3& b, double noise, const Lattice&
     }
 }
 
-double elevation(DuplicatePolicy policy, std::span<const std::uint32_t> group,
-                 std::span<const Point3> samples) {
-    if (policy == DuplicatePolicy::First) {
-        return samples[group.front()].z;
-    }
-    if (policy == DuplicatePolicy::Last) {
-        return samples[group.back()].z;
-    }
-    std::vector<double> z(group.size());
-    std::transform(group.begin(), group.end(), z.begin(), [&](std::uint32_t i) { return samples[i].z; });
-    std::sort(z.begin(), z.end());
+// `z`: the elevations at one location, ascending.
+double choose_elevation(DuplicatePolicy policy, std::span<const double> z) {
     const std::size_t middle = z.size() / 2;
     switch (policy) {
         case DuplicatePolicy::Min:
@@ -96,10 +88,13 @@ double elevation(DuplicatePolicy policy, std::span<const std::uint32_t> group,
             return z.back();
         case DuplicatePolicy::Median:
             return z.size() % 2 == 1 ? z[middle] : std::midpoint(z[middle - 1], z[middle]);
-        default:  // the mean, taken from the lowest so that equal elevations give themselves
-            return z.front() + std::accumulate(z.begin(), z.end(), 0.0, [&](double sum, double v) {
-                                   return sum + (v - z.front());
-                               }) / static_cast<double>(z.size());
+        default: {  // the mean, counted from the lowest, so that equal elevations give themselves
+            double sum = 0;
+            for (const double value : z) {
+                sum += value - z.front();
+            }
+            return z.front() + sum / static_cast<double>(z.size());
+        }
     }
 }
 
@@ -115,15 +110,16 @@ class Merger {
 
     // `group`: the ascending indices of two or more samples at the vertex's key.
     void merge(std::size_t vertex, std::span<const std::uint32_t> group) {
-        double z_min = samples_[group.front()].z;
-        double z_max = z_min;
+        sorted_.clear();
         for (const std::uint32_t i : group) {
-            z_min = std::min(z_min, samples_[i].z);
-            z_max = std::max(z_max, samples_[i].z);
+            sorted_.push_back(samples_[i].z);
             if (!out_.lattice.is_exact()) {
                 check_merged(samples_[group.front()], samples_[i], noise_, out_.lattice, group.front(), i);
             }
         }
+        std::sort(sorted_.begin(), sorted_.end());
+        const double z_min = sorted_.front();
+        const double z_max = sorted_.back();
         const bool conflicts = z_max - z_min > options_.tolerance;
         (conflicts ? out_.duplicates.conflicting : out_.duplicates.equal) += group.size() - 1;
         if (conflicts) {
@@ -133,8 +129,11 @@ class Merger {
                 out_.duplicates.first.push_back({location, {group.begin(), group.end()}, z_min, z_max});
             }
         }
-        out_.z[vertex] = elevation(options_.policy, group, samples_);
-        out_.sample[vertex] = options_.policy == DuplicatePolicy::Last ? group.back() : group.front();
+        const bool takes_last = options_.policy == DuplicatePolicy::Last;
+        out_.sample[vertex] = takes_last ? group.back() : group.front();
+        out_.z[vertex] = takes_last || options_.policy == DuplicatePolicy::First
+                             ? samples_[out_.sample[vertex]].z
+                             : choose_elevation(options_.policy, sorted_);
     }
 
     void finish() const {
@@ -157,9 +156,76 @@ class Merger {
     std::span<const Point3> samples_;
     const DuplicateOptions& options_;
     SampleVertices& out_;
+    std::vector<double> sorted_;  // elevations of the group at hand
     double noise_ = 0;
     std::size_t conflicting_locations_ = 0;
 };
+
+// Runs body(i) for each sample index, in parallel.
+template <class Body>
+void for_each_index(std::size_t count, const Body& body) {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, kGrain),
+                      [&](const tbb::blocked_range<std::size_t>& range) {
+                          for (std::size_t i = range.begin(); i != range.end(); ++i) {
+                              body(i);
+                          }
+                      });
+}
+
+// Fills keys, z and sample, one entry a sample, in curve order; samples at one key by ascending index.
+// Keys are computed twice rather than kept: a pass over fresh memory costs more than the arithmetic.
+void order_samples(std::span<const Point3> samples, SampleVertices& out) {
+    const auto key_of = [&](std::size_t i) { return out.lattice.key({samples[i].x, samples[i].y}); };
+    const Key2 corner = out.lattice.key({out.bounds.x_max, out.bounds.y_max});
+    const double largest = std::max(corner.x, corner.y);
+    const int dropped = curve_bits_dropped(largest);
+    const std::size_t count = samples.size();
+    const auto items = std::make_unique_for_overwrite<CurveItem[]>(count);
+    {
+        const auto scratch = std::make_unique_for_overwrite<CurveItem[]>(count);
+        for_each_index(count, [&](std::size_t i) {
+            items[i] = {curve_code(key_of(i), dropped), static_cast<std::uint32_t>(i)};
+        });
+        sort_curve_items({items.get(), count}, {scratch.get(), count}, curve_code_bits(largest));
+    }
+    // Codes of wide keys are cut short: runs of equal ones are ordered by the keys themselves.
+    for (std::size_t first = 0; dropped > 0 && first < count;) {
+        std::size_t last = first + 1;
+        while (last < count && items[last].code == items[first].code) {
+            ++last;
+        }
+        std::sort(&items[first], &items[first] + (last - first), [&](const CurveItem& a, const CurveItem& b) {
+            const Key2 p = key_of(a.index);
+            const Key2 q = key_of(b.index);
+            return p == q ? a.index < b.index : precedes_on_curve(p, q);
+        });
+        first = last;
+    }
+    out.keys.resize(count);
+    out.z.resize(count);
+    out.sample.resize(count);
+    for_each_index(count, [&](std::size_t i) {
+        const std::uint32_t sample = items[i].index;
+        out.keys[i] = key_of(sample);
+        out.z[i] = samples[sample].z;
+        out.sample[i] = sample;
+    });
+}
+
+// Index of the first key that equals the one after it; their number if there is none.
+std::size_t find_first_repeated(std::span<const Key2> keys) {
+    return tbb::parallel_reduce(
+        tbb::blocked_range<std::size_t>(0, keys.size(), kGrain), keys.size(),
+        [&](const tbb::blocked_range<std::size_t>& range, std::size_t first) {
+            for (std::size_t i = range.begin(); i != range.end() && i < first && i + 1 < keys.size(); ++i) {
+                if (keys[i] == keys[i + 1]) {
+                    return i;
+                }
+            }
+            return first;
+        },
+        [](std::size_t a, std::size_t b) { return std::min(a, b); });
+}
 
 }  // namespace
 
@@ -174,28 +240,12 @@ SampleVertices make_sample_vertices(std::span<const Point3> samples, const Dupli
     SampleVertices out;
     out.lattice = found.lattice;
     out.bounds = found.bounds;
-    const auto for_ranges = [&](auto&& body) {
-        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, samples.size(), kGrain),
-                          [&](const tbb::blocked_range<std::size_t>& range) {
-                              for (std::size_t i = range.begin(); i != range.end(); ++i) {
-                                  body(i);
-                              }
-                          });
-    };
-    {
-        std::vector<Key2> keys(samples.size());
-        for_ranges([&](std::size_t i) { keys[i] = out.lattice.key({samples[i].x, samples[i].y}); });
-        out.sample = sort_along_curve(keys);
-        out.keys.resize(samples.size());
-        for_ranges([&](std::size_t i) { out.keys[i] = keys[out.sample[i]]; });
-    }
-    out.z.resize(samples.size());
-    for_ranges([&](std::size_t i) { out.z[i] = samples[out.sample[i]].z; });
+    order_samples(samples, out);
 
     // Runs of equal keys shrink to one vertex each; nothing moves as long as there is none.
     Merger merger(samples, options, out);
-    std::size_t vertices = 0;
-    for (std::size_t first = 0; first < out.keys.size();) {
+    std::size_t vertices = find_first_repeated(out.keys);
+    for (std::size_t first = vertices; first < out.keys.size();) {
         std::size_t last = first + 1;
         while (last < out.keys.size() && out.keys[last] == out.keys[first]) {
             ++last;

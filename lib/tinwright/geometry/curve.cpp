@@ -4,12 +4,9 @@
 #include <array>
 #include <bit>
 #include <cstddef>
-#include <memory>
 #include <utility>
 
-#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_reduce.h>
 
 namespace tinwright {
 
@@ -34,18 +31,13 @@ Bits spread(Bits value) {
     return (value | value << 1U) & 0x5555555555555555U;
 }
 
-struct CodedIndex {
-    Bits code;
-    std::uint32_t index;
-};
-
-bool precedes_coded(const CodedIndex& a, const CodedIndex& b) {
+bool precedes_in_code(const CurveItem& a, const CurveItem& b) {
     return a.code < b.code || (a.code == b.code && a.index < b.index);
 }
 
 // Most significant digit first; each level moves the items to the other buffer, so that `items` holds the
 // result when `in_place`, else `other` does. Stable, hence equal codes stay in index order.
-void sort_codes(CodedIndex* items, CodedIndex* other, std::size_t count, bool in_place) {
+void sort_codes(CurveItem* items, CurveItem* other, std::size_t count, bool in_place) {
     constexpr std::size_t kSmall = 48;
     Bits differing = 0;
     for (std::size_t i = 1; i < count; ++i) {
@@ -54,9 +46,9 @@ void sort_codes(CodedIndex* items, CodedIndex* other, std::size_t count, bool in
     if (differing == 0 || count <= kSmall) {
         if (differing != 0) {
             for (std::size_t i = 1; i < count; ++i) {
-                const CodedIndex item = items[i];
+                const CurveItem item = items[i];
                 std::size_t hole = i;
-                for (; hole > 0 && precedes_coded(item, items[hole - 1]); --hole) {
+                for (; hole > 0 && precedes_in_code(item, items[hole - 1]); --hole) {
                     items[hole] = items[hole - 1];
                 }
                 items[hole] = item;
@@ -96,7 +88,7 @@ constexpr std::size_t kGrain = 1U << 14U;
 
 // Distributes by the top digit in parallel (counts by block of input, so the result does not depend on
 // the schedule), then sorts the buckets in parallel. The result is in `items`.
-void sort_codes_in_parallel(CodedIndex* items, CodedIndex* other, std::size_t count, int top) {
+void sort_codes_in_parallel(CurveItem* items, CurveItem* other, std::size_t count, int top) {
     const int width = std::min(11, top);
     const int shift = top - width;
     const std::size_t buckets = std::size_t{1} << width;
@@ -141,54 +133,44 @@ bool precedes_on_curve(Key2 a, Key2 b) {
     return has_lower_top_bit(x, y) ? a.y < b.y : a.x < b.x;
 }
 
+int curve_bits_dropped(double largest) { return std::max(0, width_of(bits(largest)) - 32); }
+
+std::uint64_t curve_code(Key2 key, int dropped) {
+    return spread(bits(key.x) >> dropped) << 1U | spread(bits(key.y) >> dropped);
+}
+
+int curve_code_bits(double largest) { return 2 * std::min(width_of(bits(largest)), 32); }
+
+void sort_curve_items(std::span<CurveItem> items, std::span<CurveItem> scratch, int code_bits) {
+    sort_codes_in_parallel(items.data(), scratch.data(), items.size(), code_bits);
+}
+
 std::vector<std::uint32_t> sort_along_curve(std::span<const Key2> keys) {
     const std::size_t count = keys.size();
-    const Bits all = tbb::parallel_reduce(
-        tbb::blocked_range<std::size_t>(0, count, kGrain), Bits{0},
-        [&](const tbb::blocked_range<std::size_t>& range, Bits seen) {
-            for (std::size_t i = range.begin(); i != range.end(); ++i) {
-                seen |= bits(keys[i].x) | bits(keys[i].y);
-            }
-            return seen;
-        },
-        [](Bits a, Bits b) { return a | b; });
-    // Codes hold the upper 32 bits of wider keys; runs of equal codes are then sorted by the keys.
-    const int key_bits = width_of(all);
-    const int dropped = std::max(0, key_bits - 32);
-
-    const auto items = std::make_unique_for_overwrite<CodedIndex[]>(count);
-    const auto other = std::make_unique_for_overwrite<CodedIndex[]>(count);
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, kGrain),
-                      [&](const tbb::blocked_range<std::size_t>& range) {
-                          for (std::size_t i = range.begin(); i != range.end(); ++i) {
-                              const Bits x = spread(bits(keys[i].x) >> dropped);
-                              const Bits y = spread(bits(keys[i].y) >> dropped);
-                              items[i] = {x << 1U | y, static_cast<std::uint32_t>(i)};
-                          }
-                      });
-    sort_codes_in_parallel(items.get(), other.get(), count, 2 * (key_bits - dropped));
-
-    std::vector<std::uint32_t> order(count);
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, kGrain),
-                      [&](const tbb::blocked_range<std::size_t>& range) {
-                          for (std::size_t i = range.begin(); i != range.end(); ++i) {
-                              order[i] = items[i].index;
-                          }
-                      });
-    if (dropped > 0) {
-        for (std::size_t first = 0; first < count;) {
-            std::size_t last = first + 1;
-            while (last < count && items[last].code == items[first].code) {
-                ++last;
-            }
-            std::sort(order.begin() + static_cast<std::ptrdiff_t>(first),
-                      order.begin() + static_cast<std::ptrdiff_t>(last),
-                      [&](std::uint32_t a, std::uint32_t b) {
-                          return keys[a] == keys[b] ? a < b : precedes_on_curve(keys[a], keys[b]);
-                      });
-            first = last;
-        }
+    double largest = 0;
+    for (const Key2& key : keys) {
+        largest = std::max({largest, key.x, key.y});
     }
+    const int dropped = curve_bits_dropped(largest);
+    std::vector<CurveItem> items(count);
+    std::vector<CurveItem> scratch(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        items[i] = {curve_code(keys[i], dropped), static_cast<std::uint32_t>(i)};
+    }
+    sort_curve_items(items, scratch, curve_code_bits(largest));
+    // Codes of wide keys are cut short: runs of equal ones are ordered by the keys themselves.
+    for (auto first = items.begin(); dropped > 0 && first != items.end();) {
+        const auto last =
+            std::find_if(first, items.end(), [&](const CurveItem& i) { return i.code != first->code; });
+        std::sort(first, last, [&](const CurveItem& a, const CurveItem& b) {
+            return keys[a.index] == keys[b.index] ? a.index < b.index
+                                                  : precedes_on_curve(keys[a.index], keys[b.index]);
+        });
+        first = last;
+    }
+    std::vector<std::uint32_t> order(count);
+    std::transform(items.begin(), items.end(), order.begin(),
+                   [](const CurveItem& item) { return item.index; });
     return order;
 }
 

@@ -14,9 +14,27 @@ namespace tinwright {
 /// Whether `a` comes before `b` on the curve.
 bool precedes_on_curve(Key2 a, Key2 b);
 
-/// Indices of `keys` sorted along the curve; equal keys by ascending index.
-/// n below 2^32. O(n) passes over 64-bit codes, then small sorts in cache; parallel inside the caller's
-/// task arena, same result for any number of threads. Scratch: 32 bytes a key.
+/// An index with the upper 64 bits of its key's place on the curve.
+struct CurveItem {
+    std::uint64_t code;
+    std::uint32_t index;
+};
+
+/// Number of low bits of each coordinate that `curve_code` leaves out when coordinates go up to `largest`.
+int curve_bits_dropped(double largest);
+/// Number of bits that codes then have.
+int curve_code_bits(double largest);
+
+/// The place of a key on the curve, without the `dropped` lowest bits of its coordinates.
+std::uint64_t curve_code(Key2 key, int dropped);
+
+/// Sorts items by code, then index; codes have `code_bits` bits at most. `scratch` has the same size; what it
+/// holds afterwards is unspecified. Most significant digits first, O(n) a digit; parallel inside the caller's
+/// task arena, same result for any number of threads.
+void sort_curve_items(std::span<CurveItem> items, std::span<CurveItem> scratch, int code_bits);
+
+/// Indices of `keys` (fewer than 2^32) sorted along the curve; equal keys by ascending index.
+/// O(n) for scattered keys, parallel inside the caller's task arena. Scratch: 32 bytes a key.
 std::vector<std::uint32_t> sort_along_curve(std::span<const Key2> keys);
 
 /// Where the curve first divides a sorted range: the first index whose key lies in the upper half of the

@@ -22,18 +22,12 @@ constexpr std::array<double, kMostDecimals + 1> kPowersOfTen = {
     1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
     1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
 
-// Below 2^51, x * 10^d rounds to within half a step of the integer it stands for, and the addition below
-// rounds to an integer.
+// Below 2^51, x * 10^d rounds to within half a step of the integer it stands for.
 constexpr double kStepLimit = 2251799813685248.0;
-
-double nearest_integer(double value) {
-    constexpr double kShift = 6755399441055744.0;  // 1.5 * 2^52: doubles are integers from here on
-    return (value + kShift) - kShift;
-}
 
 bool is_decimal(double value, double power_of_ten) {
     const double scaled = value * power_of_ten;
-    return std::abs(scaled) < kStepLimit && nearest_integer(scaled) / power_of_ten == value;
+    return std::abs(scaled) < kStepLimit && Lattice::nearest_integer(scaled) / power_of_ten == value;
 }
 
 struct Survey {
@@ -57,6 +51,8 @@ struct Survey {
         return a;
     }
 };
+
+constexpr int kLeastExponent = -960;  // quanta and their reciprocals stay well within the range of doubles
 
 constexpr std::size_t kGrain = 1U << 14U;
 
@@ -84,10 +80,12 @@ int lowest_bit(double value) {
     if (value == 0) {
         return std::numeric_limits<int>::max();
     }
-    int exponent = 0;
-    const double fraction = std::frexp(value, &exponent);
-    const auto mantissa = static_cast<std::uint64_t>(std::abs(std::ldexp(fraction, 53)));
-    return exponent - 53 + std::countr_zero(mantissa);
+    const auto bits = std::bit_cast<std::uint64_t>(value);
+    const auto exponent = static_cast<int>(bits >> 52U & 0x7FFU);
+    const std::uint64_t fraction = bits & ((std::uint64_t{1} << 52U) - 1);
+    // Subnormal numbers have the exponent of the smallest normal ones and no leading one.
+    const std::uint64_t mantissa = exponent == 0 ? fraction : fraction | std::uint64_t{1} << 52U;
+    return std::max(exponent, 1) - 1075 + std::countr_zero(mantissa);
 }
 
 int lowest_bit(std::span<const Point3> samples) {
@@ -114,7 +112,7 @@ Lattice Lattice::decimal(int decimals, Key2 origin) {
     Lattice lattice;
     lattice.origin_ = origin;
     lattice.decimals_ = decimals;
-    lattice.scale_ = kPowersOfTen.at(static_cast<std::size_t>(decimals));
+    lattice.steps_per_unit_ = kPowersOfTen.at(static_cast<std::size_t>(decimals));
     return lattice;
 }
 
@@ -123,26 +121,12 @@ Lattice Lattice::binary(int exponent, Key2 origin, bool is_exact) {
     lattice.origin_ = origin;
     lattice.decimals_ = -1;
     lattice.exponent_ = exponent;
-    lattice.scale_ = std::ldexp(1.0, exponent);
+    lattice.steps_per_unit_ = std::ldexp(1.0, -exponent);
     lattice.is_exact_ = is_exact;
     return lattice;
 }
 
-double Lattice::quantum() const { return decimals_ >= 0 ? 1 / scale_ : scale_; }
-
-Key2 Lattice::key(Point2 position) const {
-    if (decimals_ >= 0) {
-        return {nearest_integer(position.x * scale_) - origin_.x,
-                nearest_integer(position.y * scale_) - origin_.y};
-    }
-    return {std::nearbyint(position.x / scale_) - origin_.x, std::nearbyint(position.y / scale_) - origin_.y};
-}
-
-Point2 Lattice::position(Key2 key) const {
-    const double x = origin_.x + key.x;
-    const double y = origin_.y + key.y;
-    return decimals_ >= 0 ? Point2{x / scale_, y / scale_} : Point2{x * scale_, y * scale_};
-}
+double Lattice::quantum() const { return 1 / steps_per_unit_; }
 
 FoundLattice find_lattice(std::span<const Point3> samples) {
     const Survey seen = survey(samples);
@@ -156,7 +140,7 @@ FoundLattice find_lattice(std::span<const Point3> samples) {
     if (seen.decimals <= kMostDecimals) {
         const Lattice plain = Lattice::decimal(seen.decimals, {});
         const double power = kPowersOfTen[static_cast<std::size_t>(seen.decimals)];
-        const double steps = widest(bounds, [&](double v) { return nearest_integer(v * power); });
+        const double steps = widest(bounds, [&](double v) { return Lattice::nearest_integer(v * power); });
         if (steps >= kKeyLimit) {
             const auto text = [](double v) { return std::to_string(static_cast<long long>(v)); };
             throw InputError("the samples' coordinates have " + std::to_string(seen.decimals) +
@@ -172,18 +156,20 @@ FoundLattice find_lattice(std::span<const Point3> samples) {
     const double extent = std::max(bounds.x_max - bounds.x_min, bounds.y_max - bounds.y_min);
     const auto fits = [&](int exponent) {
         const double step = std::ldexp(1.0, exponent);
-        return std::isfinite(extent) && step > 0 && largest / step < kStepLimit * 4 &&
+        return exponent >= kLeastExponent && exponent <= -kLeastExponent && std::isfinite(extent) &&
+               largest / step < kStepLimit &&
                widest(bounds, [&](double v) { return std::nearbyint(v / step); }) < kKeyLimit;
     };
     int exponent = lowest_bit(samples);
     const bool is_exact = fits(exponent);
     if (!is_exact) {
-        // No finer than the spacing of doubles at the largest coordinate, as coarse as the limit demands.
-        exponent = std::ilogb(largest) - 52;
+        // As fine as doubles at the largest coordinate are, but for two bits, or as coarse as the limit
+        // demands.
+        exponent = std::max(std::ilogb(largest) - 50, kLeastExponent);
         while (std::isfinite(extent) && !fits(exponent)) {
             ++exponent;
         }
-        if (!std::isfinite(extent) || !(std::ldexp(1.0, exponent) > 0)) {
+        if (!std::isfinite(extent) || exponent > -kLeastExponent) {
             throw InputError(
                 "the samples' coordinates span the whole range of floating-point numbers; "
                 "remove outlying samples");

@@ -29,7 +29,7 @@ class Lattice {
   public:
     Lattice() = default;
 
-    /// Steps of 10^-decimals; `origin` counts steps from zero, |origin + key| below 2^53, decimals 0..22.
+    /// Steps of 10^-decimals; `origin` counts steps from zero, |origin + key| below 2^51, decimals 0..22.
     static Lattice decimal(int decimals, Key2 origin);
     /// Steps of 2^exponent; same condition on the origin.
     static Lattice binary(int exponent, Key2 origin, bool is_exact);
@@ -47,15 +47,26 @@ class Lattice {
     [[nodiscard]] bool is_exact() const { return is_exact_; }
 
     /// Nearest lattice point, as a key; exact for positions on the lattice.
-    [[nodiscard]] Key2 key(Point2 position) const;
+    [[nodiscard]] Key2 key(Point2 position) const {
+        return {nearest_integer(position.x * steps_per_unit_) - origin_.x,
+                nearest_integer(position.y * steps_per_unit_) - origin_.y};
+    }
     /// The position of a key, correctly rounded.
-    [[nodiscard]] Point2 position(Key2 key) const;
+    [[nodiscard]] Point2 position(Key2 key) const {
+        return {(origin_.x + key.x) / steps_per_unit_, (origin_.y + key.y) / steps_per_unit_};
+    }
+
+    /// `value` rounded to an integer, ties to even; |value| below 2^51.
+    static double nearest_integer(double value) {
+        constexpr double kShift = 6755399441055744.0;  // 1.5 * 2^52: doubles are integers from here on
+        return (value + kShift) - kShift;
+    }
 
     friend bool operator==(const Lattice&, const Lattice&) = default;
 
   private:
     Key2 origin_;
-    double scale_ = 1;  // decimal: 10^decimals, a divisor; binary: 2^exponent, a factor
+    double steps_per_unit_ = 1;  // 10^decimals or 2^-exponent, exact either way
     int decimals_ = 0;
     int exponent_ = 0;
     bool is_exact_ = true;
@@ -68,8 +79,8 @@ struct FoundLattice {
 };
 
 /// Finds the coarsest lattice that holds the samples' x and y: 10^-d with the fewest decimals, else a
-/// power of two. Where no lattice of 2^45 steps holds them all, the finest that spans them (and is no
-/// finer than the floating-point spacing of the largest coordinate) is taken and `is_exact()` is false.
+/// power of two. Where neither holds them all in 2^45 steps and the data are not decimal, the finest power of
+/// two that spans them (and a 2^51st of the largest coordinate) is taken and `is_exact()` is false.
 ///
 /// `samples`: n of them, any order; the result does not depend on it. z is not looked at.
 /// Throws InputError naming the first sample with a coordinate that is not finite.
