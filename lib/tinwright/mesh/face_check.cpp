@@ -40,7 +40,11 @@ class FaceAudit {
   public:
     FaceAudit(std::span<const Point3> vertices, std::span<const std::uint32_t> corners,
               const FaceCheckOptions& options)
-        : vertices_(vertices), corners_(corners), options_(options) {}
+        : vertices_(vertices),
+          corners_(corners),
+          options_(options),
+          number_(corners.size() / 3),
+          faces_(corners.size() / 3) {}
 
     FaceCheckReport run() {
         check_finite();
@@ -105,8 +109,6 @@ class FaceAudit {
 };
 
 void FaceAudit::check_finite() {
-    number_.resize(corners_.size() / 3);
-    faces_.resize(number_.size());
     std::vector<FaceViolation> found;
     std::vector<bool> is_bad(faces_.size(), false);
     for (std::uint32_t f = 0; f < faces_.size(); ++f) {
@@ -312,6 +314,7 @@ Point3 middle_of_overlap(const std::array<Point3, 3>& a, const std::array<Point3
             return (q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x);
         };
         std::vector<Point3> rest;
+        rest.reserve(part.size() + 1);
         for (std::size_t k = 0; k < part.size(); ++k) {
             const Point3& from = part[k];
             const Point3& to = part[(k + 1) % part.size()];

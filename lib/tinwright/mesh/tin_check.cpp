@@ -158,7 +158,7 @@ class TinAudit {
             const Key2 a = corner(ghost, 0);
             const Key2 b = corner(ghost, 1);
             const Key2 c = corner(following, 1);
-            if (!(corner(following, 0) == b) || orient2d(a, b, c) > 0 || (precedes(a, b) && a == c)) {
+            if (!(corner(following, 0) == b) || orient2d(a, b, c) > 0) {
                 return {ghost, "the border is not convex"};
             }
             if (orient2d(a, b, c) == 0 && precedes(a, b) != precedes(b, c)) {
