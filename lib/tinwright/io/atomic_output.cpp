@@ -94,7 +94,7 @@ void sync_file(const fs::path& file, const std::string& target) {
         ::close(descriptor);
     }
     if (error != 0) {
-        throw IoError("cannot finish writing " + quoted(target) + ": " + reason(error));
+        throw IoError("cannot finish writing " + io::quoted(target) + ": " + reason(error));
     }
 }
 
@@ -145,7 +145,7 @@ AtomicOutput::AtomicOutput(std::string target, bool overwrite)
         throw UsageError("the output has no name; give one with -o FILE");
     }
     if (target_ == "-" || target_.starts_with("/vsistdout") || target_ == "/dev/stdout") {
-        throw UsageError("cannot write " + quoted(target_) +
+        throw UsageError("cannot write " + io::quoted(target_) +
                          ": outputs are files that appear only when complete; name a file");
     }
     if (is_virtual(target_)) {
@@ -162,31 +162,32 @@ void AtomicOutput::prepare_local() {
         // The link stays; what it points to is replaced.
         destination = fs::weakly_canonical(destination, error);
         if (error) {
-            throw IoError("cannot write " + quoted(target_) + ": " + reason(error));
+            throw IoError("cannot write " + io::quoted(target_) + ": " + reason(error));
         }
     }
     destination_ = destination.string();
     const fs::path folder = folder_of(destination);
     const fs::file_status status = fs::status(destination, error);
     if (fs::is_directory(status)) {
-        throw IoError("cannot write " + quoted(target_) + ": it is a folder; name a file");
+        throw IoError("cannot write " + io::quoted(target_) + ": it is a folder; name a file");
     }
     if (fs::exists(status) && !fs::is_regular_file(status)) {
-        throw IoError("cannot write " + quoted(target_) + ": it is not a regular file");
+        throw IoError("cannot write " + io::quoted(target_) + ": it is not a regular file");
     }
     if (fs::exists(status) && !overwrite_) {
-        throw IoError(quoted(target_) + " exists; use --overwrite to replace it");
+        throw IoError(io::quoted(target_) + " exists; use --overwrite to replace it");
     }
     if (fs::exists(status) && ::access(destination.c_str(), W_OK) != 0) {
-        throw IoError("cannot replace " + quoted(target_) + ": " + reason(errno));
+        throw IoError("cannot replace " + io::quoted(target_) + ": " + reason(errno));
     }
     if (!fs::is_directory(folder, error)) {
-        throw IoError("cannot write " + quoted(target_) + ": there is no folder " + quoted(folder.string()));
+        throw IoError("cannot write " + io::quoted(target_) + ": there is no folder " +
+                      io::quoted(folder.string()));
     }
     std::string pattern = (folder / ".tinwright-XXXXXX").string();
     const std::lock_guard lock(unfinished().mutex);
     if (::mkdtemp(pattern.data()) == nullptr) {
-        throw IoError("cannot write in folder " + quoted(folder.string()) + ": " + reason(errno));
+        throw IoError("cannot write in folder " + io::quoted(folder.string()) + ": " + reason(errno));
     }
     folder_ = pattern;
     unfinished().folders.insert(folder_);
@@ -201,10 +202,10 @@ void AtomicOutput::prepare_virtual() {
     VSIStatBufL status;
     if (VSIStatL(target_.c_str(), &status) == 0) {
         if (VSI_ISDIR(status.st_mode)) {
-            throw IoError("cannot write " + quoted(target_) + ": it is a folder; name a file");
+            throw IoError("cannot write " + io::quoted(target_) + ": it is a folder; name a file");
         }
         if (!overwrite_) {
-            throw IoError(quoted(target_) + " exists; use --overwrite to replace it");
+            throw IoError(io::quoted(target_) + " exists; use --overwrite to replace it");
         }
         for (const std::string& file : files_of_dataset(target_)) {
             VSIUnlink(file.c_str());
@@ -248,7 +249,7 @@ void AtomicOutput::commit() {
     if (folder_.empty()) {
         VSIStatBufL status;
         if (VSIStatL(path_.c_str(), &status) != 0) {
-            throw IoError("cannot write " + quoted(target_) + ": nothing was written");
+            throw IoError("cannot write " + io::quoted(target_) + ": nothing was written");
         }
         committed_ = true;
         const std::lock_guard lock(unfinished().mutex);
@@ -268,11 +269,11 @@ void AtomicOutput::commit() {
         return std::pair(a == main_name, a.native()) < std::pair(b == main_name, b.native());
     });
     if (error || names.empty() || names.back() != main_name) {
-        throw IoError("cannot write " + quoted(target_) + ": nothing was written");
+        throw IoError("cannot write " + io::quoted(target_) + ": nothing was written");
     }
     for (const fs::path& name : names) {
         if (!overwrite_ && fs::exists(folder / name)) {
-            throw IoError(quoted((folder / name).string()) + " exists; use --overwrite to replace it");
+            throw IoError(io::quoted((folder / name).string()) + " exists; use --overwrite to replace it");
         }
         if (fs::is_regular_file(fs::path(folder_) / name)) {
             sync_file(fs::path(folder_) / name, target_);
@@ -289,7 +290,7 @@ void AtomicOutput::commit() {
     for (const fs::path& name : names) {
         fs::rename(fs::path(folder_) / name, folder / name, error);
         if (error) {
-            throw IoError("cannot move the finished file to " + quoted((folder / name).string()) + ": " +
+            throw IoError("cannot move the finished file to " + io::quoted((folder / name).string()) + ": " +
                           reason(error));
         }
     }
@@ -328,8 +329,8 @@ void require_free_space(const std::string& target, double bytes) {
     }
     const double free = static_cast<double>(state.f_bavail) * static_cast<double>(state.f_frsize);
     if (bytes > free) {
-        throw IoError("not enough space for " + quoted(target) + ": " + in_gigabytes(bytes) + " needed, " +
-                      in_gigabytes(free) + " free; choose another folder or a smaller output");
+        throw IoError("not enough space for " + io::quoted(target) + ": " + in_gigabytes(bytes) +
+                      " needed, " + in_gigabytes(free) + " free; choose another folder or a smaller output");
     }
 }
 
