@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tinwright/geometry/point.hpp"
@@ -16,10 +17,14 @@ namespace tinwright::io {
 
 /// The faces of a file as they stand there: nothing checked but that they are triangles with z.
 struct TinFile {
-    std::vector<Point3> vertices;        ///< distinct (x, y, z), in order of first use
+    /// Distinct (x, y, z) in order of first use by a face; then those of a `vertices` layer that no face
+    /// uses.
+    std::vector<Point3> vertices;
     std::vector<std::uint32_t> corners;  ///< 3 a face, as written
     std::vector<std::int64_t> face_ids;  ///< feature id of each face
+    /// Vertex pairs, the smaller first, sorted.
     std::vector<std::pair<std::uint32_t, std::uint32_t>> constrained_edges;
+    std::vector<bool> is_steiner;  ///< one a vertex where the file says it; else empty
     std::string layer;
     Crs crs;
     TinMetadata metadata;
@@ -27,14 +32,19 @@ struct TinFile {
 };
 
 /// Whether the source is a TIN: has a `faces` layer with our metadata, a TIN geometry, or only closed 3-D
-/// triangles; `as=` overrides. Throws IoError when it cannot be opened.
+/// triangles (in the one layer there is, or the one that `layer=` names; the first 1000 features are looked
+/// at); `as=` overrides. Keys that only samples have (`vertices`, `xfield`, `format`, ...) say no, and so
+/// does /vsistdin/, which is not touched. Throws IoError when it cannot be opened.
 bool is_tin(const Source& source);
 
-/// Reads the faces of a TIN file. Throws IoError; InputError naming the feature that is not a triangle or
-/// has no z.
+/// Reads the faces of a TIN file, and what docs/formats.md says goes with them. Throws IoError; InputError
+/// naming the feature that is not a triangle or has no z; UsageError for a filter that cannot be; Cancelled.
+/// O(n).
 TinFile read_tin_file(const Source& source, const Progress& progress = {});
 
 /// Puts a file's faces on a lattice as a TIN, vertices in curve order, domain and constrained edges kept.
+/// `sample[v]` is the index in `file.vertices` that vertex v has there, or kNoSample for a Steiner vertex.
+/// Faces may turn either way in the file and are all counter-clockwise in the TIN.
 /// Throws InputError, naming the feature and a coordinate, when the faces are no surface (zero area, two
 /// elevations at one location, an edge with more than two faces); `tinwright check` lists all of them.
 Tin make_tin(const TinFile& file);
