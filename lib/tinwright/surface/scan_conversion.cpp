@@ -31,8 +31,13 @@ struct ScanVertex {
     std::int32_t row = 0;
 };
 
+/// By (y, x). No branches: which corner of a face is lowest cannot be predicted.
 bool is_below(const ScanVertex& a, const ScanVertex& b) {
-    return a.key.y < b.key.y || (a.key.y == b.key.y && a.key.x < b.key.x);
+    const bool is_lower = a.key.y < b.key.y;
+    const bool is_level = a.key.y == b.key.y;
+    const bool is_left = a.key.x < b.key.x;
+    return static_cast<bool>(static_cast<unsigned>(is_lower) |
+                             (static_cast<unsigned>(is_level) & static_cast<unsigned>(is_left)));
 }
 
 /// What the faces and edges of one TIN need to be scanned.
@@ -91,8 +96,6 @@ class BandWriter {
         std::int32_t end = 0;
     };
 
-    std::int64_t write_rows(const FacePlane& plane, const CutEdge& left, const CutEdge& right,
-                            Span rows) const;
     void write_span(const FacePlane& plane, double y, Value* row, Span columns) const;
     [[nodiscard]] std::size_t index(std::int32_t row, std::int32_t column) const {
         return static_cast<std::size_t>(row - first_row_) *
@@ -113,61 +116,37 @@ template <class Value>
 std::int64_t BandWriter<Value>::write_face(FaceId f) const {
     const auto& v = scene_.tin.mesh.face(f).vertex;
     // The corner with the smallest id first, so that the plane does not depend on where the face starts.
-    std::size_t first = v[1] < v[0] ? 1 : 0;
+    unsigned first = v[1] < v[0] ? 1 : 0;
     first = v[2] < v[first] ? 2 : first;
-    const std::array<ScanVertex, 3> corner{scene_.vertex(v[first]), scene_.vertex(v[(first + 1) % 3]),
-                                           scene_.vertex(v[(first + 2) % 3])};
-
-    std::size_t low = is_below(corner[1], corner[0]) ? 1 : 0;
+    const std::array<ScanVertex, 3> corner{scene_.vertex(v[first]), scene_.vertex(v[next_corner(first)]),
+                                           scene_.vertex(v[previous_corner(first)])};
+    unsigned low = is_below(corner[1], corner[0]) ? 1 : 0;
     low = is_below(corner[2], corner[low]) ? 2 : low;
-    const std::size_t after = next_corner(static_cast<unsigned>(low));
-    const std::size_t before = previous_corner(static_cast<unsigned>(low));
-    // Counter-clockwise, so the corner after the lowest is right of the one before it.
-    const bool middle_is_right = is_below(corner[after], corner[before]);
+    const unsigned right = next_corner(low);  // counter-clockwise
+    const unsigned left = previous_corner(low);
+    const bool is_left_top = is_below(corner[right], corner[left]);
     const ScanVertex& bottom = corner[low];
-    const ScanVertex& middle = middle_is_right ? corner[after] : corner[before];
-    const ScanVertex& top = middle_is_right ? corner[before] : corner[after];
-    const Span upper_rows = within_band(top.row, middle.row);
-    const Span lower_rows = within_band(middle.row, bottom.row);
-    const bool has_upper = upper_rows.first < upper_rows.end;
-    const bool has_lower = lower_rows.first < lower_rows.end;
-    if (!has_upper && !has_lower) {
-        return 0;
-    }
+    const ScanVertex& middle = corner[is_left_top ? right : left];
+    const ScanVertex& top = corner[is_left_top ? left : right];
+    const Span rows = within_band(top.row, bottom.row);
     const ScanLattice& lattice = scene_.lattice;
-    const double left = std::min(std::min(corner[0].key.x, corner[1].key.x), corner[2].key.x);
-    const double right = std::max(std::max(corner[0].key.x, corner[1].key.x), corner[2].key.x);
-    if (right < lattice.column_x(0) || left > lattice.column_x(lattice.columns() - 1)) {
+    const double west = std::min(std::min(bottom.key.x, middle.key.x), top.key.x);
+    const double east = std::max(std::max(bottom.key.x, middle.key.x), top.key.x);
+    if (rows.first >= rows.end || lattice.is_beside(west, east)) {
         return 0;
     }
     const FacePlane plane(
         {{{corner[0].key, corner[0].z}, {corner[1].key, corner[1].z}, {corner[2].key, corner[2].z}}});
+    const bool is_inside = lattice.is_inside(west, east);
     const CutEdge whole = lattice.cut(bottom.key, top.key);
-    std::int64_t cells = 0;
-    if (has_upper) {
-        const CutEdge part = lattice.cut(middle.key, top.key);
-        cells +=
-            write_rows(plane, middle_is_right ? whole : part, middle_is_right ? part : whole, upper_rows);
-    }
-    if (has_lower) {
-        const CutEdge part = lattice.cut(bottom.key, middle.key);
-        cells +=
-            write_rows(plane, middle_is_right ? whole : part, middle_is_right ? part : whole, lower_rows);
-    }
-    return cells;
-}
-
-template <class Value>
-std::int64_t BandWriter<Value>::write_rows(const FacePlane& plane, const CutEdge& left, const CutEdge& right,
-                                           Span rows) const {
+    const std::array<CutEdge, 2> part{lattice.cut(middle.key, top.key), lattice.cut(bottom.key, middle.key)};
     std::int64_t cells = 0;
     for (std::int32_t row = rows.first; row < rows.end; ++row) {
-        const double y = scene_.lattice.row_y(row);
-        const Span columns{scene_.lattice.first_column(left, y), scene_.lattice.first_column(right, y)};
-        if (columns.first < columns.end) {
-            write_span(plane, y, values_ + index(row, 0), columns);
-            cells += columns.end - columns.first;
-        }
+        const double y = lattice.row_y(row);
+        const auto at = lattice.first_columns(whole, part[row < middle.row ? 0 : 1], y, is_inside);
+        const Span columns{is_left_top ? at[0] : at[1], is_left_top ? at[1] : at[0]};
+        write_span(plane, y, values_ + index(row, 0), columns);
+        cells += columns.end - columns.first;
     }
     return cells;
 }
@@ -237,17 +216,27 @@ Scene make_scene(const Tin& tin, const GridGeometry& grid) {
     return scene;
 }
 
+/// Border half-edges, found from the faces behind them, which are few.
 std::vector<HalfEdgeId> find_border(const TriangleMesh& mesh) {
-    std::vector<HalfEdgeId> border;
-    for (std::uint32_t f = 0; f < mesh.slot_count(); ++f) {
-        if (!mesh.is_terrain({f})) {
-            continue;
-        }
-        for (unsigned corner = 0; corner < 3; ++corner) {
-            if (mesh.is_border(half_edge({f}, corner))) {
-                border.push_back(half_edge({f}, corner));
+    constexpr std::size_t kChunks = 64;
+    std::array<std::vector<HalfEdgeId>, kChunks> found;
+    tbb::parallel_for(std::size_t{0}, kChunks, [&](std::size_t chunk) {
+        const std::size_t end = mesh.slot_count() * (chunk + 1) / kChunks;
+        for (std::size_t i = mesh.slot_count() * chunk / kChunks; i < end; ++i) {
+            const FaceId f{static_cast<std::uint32_t>(i)};
+            if (mesh.is_terrain(f)) {
+                continue;
+            }
+            for (const HalfEdgeId twin : mesh.face(f).twin) {
+                if (mesh.is_terrain(face_of(twin))) {
+                    found[chunk].push_back(twin);
+                }
             }
         }
+    });
+    std::vector<HalfEdgeId> border;
+    for (const std::vector<HalfEdgeId>& part : found) {
+        border.insert(border.end(), part.begin(), part.end());
     }
     return border;
 }

@@ -1,6 +1,8 @@
 #ifndef TINWRIGHT_SURFACE_SCAN_LATTICE_HPP
 #define TINWRIGHT_SURFACE_SCAN_LATTICE_HPP
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -63,6 +65,32 @@ class ScanLattice {
             return nearest + (beyond > 0 ? 1 : 0);
         }
         return is_certain_ ? nearest + (is_left(edge, nearest, y) ? 1 : 0) : search_column(edge, y);
+    }
+    /// `first_column` of two edges that both cross the row at height `y`. `is_inside`: both lie within the
+    /// columns' centres.
+    [[nodiscard]] std::array<std::int32_t, 2> first_columns(const CutEdge& a, const CutEdge& b, double y,
+                                                            bool is_inside) const {
+        if (!is_inside) {
+            return {first_column(a, y), first_column(b, y)};
+        }
+        const double at_a = a.column + (y - a.lower.y) * a.columns_per_unit;
+        const double at_b = b.column + (y - b.lower.y) * b.columns_per_unit;
+        const auto nearest_a = static_cast<std::int32_t>(at_a + 0.5);
+        const auto nearest_b = static_cast<std::int32_t>(at_b + 0.5);
+        const double beyond_a = at_a - static_cast<double>(nearest_a);
+        const double beyond_b = at_b - static_cast<double>(nearest_b);
+        if (std::min(std::abs(beyond_a), std::abs(beyond_b)) > x_.uncertainty) {
+            return {nearest_a + (beyond_a > 0 ? 1 : 0), nearest_b + (beyond_b > 0 ? 1 : 0)};
+        }
+        return {first_column(a, y), first_column(b, y)};
+    }
+    /// Whether no column's centre lies within x = west..east.
+    [[nodiscard]] bool is_beside(double west, double east) const {
+        return east < x_.centres.front() || west > x_.centres.back();
+    }
+    /// Whether west..east lies within the columns' centres, and estimates of columns can be trusted.
+    [[nodiscard]] bool is_inside(double west, double east) const {
+        return is_certain_ && west >= x_.centres.front() && east <= x_.centres.back();
     }
     /// Whether the centre of a cell lies exactly on the edge.
     [[nodiscard]] bool is_on(const CutEdge& edge, std::int32_t column, double y) const;
