@@ -114,6 +114,11 @@ std::string GdalMessages::last_error() const {
     return one_line(state_->last_error);
 }
 
+std::string GdalMessages::last_warning() const {
+    const std::lock_guard lock(state_->mutex);
+    return one_line(state_->last_warning);
+}
+
 std::string GdalMessages::suffix() const {
     const std::string text = last_error();
     return text.empty() ? text : "; GDAL says: " + text;
@@ -209,6 +214,15 @@ std::string quoted(const std::string& text) {
         out += pieces[i];
     }
     return out + "\"";
+}
+
+std::string quoted_list(const std::vector<std::string>& names) {
+    constexpr std::size_t most = 20;
+    std::string list;
+    for (std::size_t i = 0; i < std::min(names.size(), most); ++i) {
+        list += (i == 0 ? "" : ", ") + quoted(names[i]);
+    }
+    return names.size() > most ? list + ", ..." : list;
 }
 
 }  // namespace tinwright::io

@@ -2,6 +2,7 @@
 #define TINWRIGHT_IO_GDAL_SESSION_HPP
 
 #include <string>
+#include <vector>
 
 namespace tinwright::io {
 
@@ -20,6 +21,8 @@ class GdalMessages {
 
     /// The last error's text on one line, without a trailing full stop; empty when there was none.
     [[nodiscard]] std::string last_error() const;
+    /// The same of the last warning.
+    [[nodiscard]] std::string last_warning() const;
     /// "; GDAL says: <last error>" or nothing: ready to be appended to a message.
     [[nodiscard]] std::string suffix() const;
 
@@ -32,6 +35,8 @@ class GdalMessages {
 /// `text` on one line for an error message, in double quotes: control characters, quotes, backslashes and
 /// invalid UTF-8 escaped, long texts shortened in the middle.
 std::string quoted(const std::string& text);
+/// The names quoted, separated by commas; of a long list the first twenty.
+std::string quoted_list(const std::vector<std::string>& names);
 
 }  // namespace tinwright::io
 
