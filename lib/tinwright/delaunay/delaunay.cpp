@@ -37,7 +37,7 @@ struct Extremes {
 // half-edge 1 leaves a for the ghost vertex, half-edge 2 comes back from there to b.
 class Builder {
   public:
-    Builder(std::span<const Key2> keys, std::vector<Face>& faces)
+    Builder(std::span<const Key2> keys, TriangleMesh::Faces& faces)
         : keys_(keys), key_(keys.data()), face_(faces.data()), hull_face_(keys.size()) {}
 
     Extremes build(std::size_t first, std::size_t last) {
@@ -314,7 +314,7 @@ class Builder {
 }  // namespace
 
 TriangleMesh make_delaunay(std::span<const Key2> vertices) {
-    std::vector<Face> faces(2 * vertices.size() - 2);
+    TriangleMesh::Faces faces(2 * vertices.size() - 2);
     Builder(vertices, faces).build(0, vertices.size());
     return {vertices.size(), std::move(faces)};
 }

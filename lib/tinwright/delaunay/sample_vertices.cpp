@@ -5,7 +5,6 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <numeric>
 #include <string>
 
@@ -14,6 +13,7 @@
 #include <tbb/parallel_reduce.h>
 
 #include "tinwright/geometry/curve.hpp"
+#include "tinwright/geometry/large_vector.hpp"
 
 namespace tinwright {
 
@@ -180,13 +180,13 @@ void order_samples(std::span<const Point3> samples, SampleVertices& out) {
     const double largest = std::max(corner.x, corner.y);
     const int dropped = curve_bits_dropped(largest);
     const std::size_t count = samples.size();
-    const auto items = std::make_unique_for_overwrite<CurveItem[]>(count);
+    LargeVector<CurveItem> items(count);
     {
-        const auto scratch = std::make_unique_for_overwrite<CurveItem[]>(count);
+        LargeVector<CurveItem> scratch(count);
         for_each_index(count, [&](std::size_t i) {
             items[i] = {curve_code(key_of(i), dropped), static_cast<std::uint32_t>(i)};
         });
-        sort_curve_items({items.get(), count}, {scratch.get(), count}, curve_code_bits(largest));
+        sort_curve_items(items, scratch, curve_code_bits(largest));
     }
     // Codes of wide keys are cut short: runs of equal ones are ordered by the keys themselves.
     for (std::size_t first = 0; dropped > 0 && first < count;) {
@@ -194,11 +194,13 @@ void order_samples(std::span<const Point3> samples, SampleVertices& out) {
         while (last < count && items[last].code == items[first].code) {
             ++last;
         }
-        std::sort(&items[first], &items[first] + (last - first), [&](const CurveItem& a, const CurveItem& b) {
-            const Key2 p = key_of(a.index);
-            const Key2 q = key_of(b.index);
-            return p == q ? a.index < b.index : precedes_on_curve(p, q);
-        });
+        std::sort(items.begin() + static_cast<std::ptrdiff_t>(first),
+                  items.begin() + static_cast<std::ptrdiff_t>(last),
+                  [&](const CurveItem& a, const CurveItem& b) {
+                      const Key2 p = key_of(a.index);
+                      const Key2 q = key_of(b.index);
+                      return p == q ? a.index < b.index : precedes_on_curve(p, q);
+                  });
         first = last;
     }
     out.keys.resize(count);

@@ -88,11 +88,12 @@ int lowest_bit(double value) {
     return std::max(exponent, 1) - 1075 + std::countr_zero(mantissa);
 }
 
-int lowest_bit(std::span<const Point3> samples) {
+// The lowest bit that any coordinate uses, or, at the first glance, one below `floor`.
+int lowest_bit(std::span<const Point3> samples, int floor) {
     return tbb::parallel_reduce(
         tbb::blocked_range<std::size_t>(0, samples.size(), kGrain), std::numeric_limits<int>::max(),
         [&](const tbb::blocked_range<std::size_t>& range, int lowest) {
-            for (std::size_t i = range.begin(); i != range.end(); ++i) {
+            for (std::size_t i = range.begin(); i != range.end() && lowest >= floor; ++i) {
                 lowest = std::min({lowest, lowest_bit(samples[i].x), lowest_bit(samples[i].y)});
             }
             return lowest;
@@ -160,7 +161,8 @@ FoundLattice find_lattice(std::span<const Point3> samples) {
                largest / step < kStepLimit &&
                widest(bounds, [&](double v) { return std::nearbyint(v / step); }) < kKeyLimit;
     };
-    int exponent = lowest_bit(samples);
+    // Below a 2^46th of the extent no exact lattice is left to be found.
+    int exponent = lowest_bit(samples, extent > 0 ? std::ilogb(extent) - 46 : kLeastExponent);
     const bool is_exact = fits(exponent);
     if (!is_exact) {
         // As fine as doubles at the largest coordinate are, but for two bits, or as coarse as the limit

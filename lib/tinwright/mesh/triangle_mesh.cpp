@@ -19,7 +19,7 @@ constexpr std::size_t kSlotLimit = std::size_t{1} << 30U;
     throw InputError("face " + std::to_string(face) + ": " + text);
 }
 
-std::vector<Face> make_unlinked_faces(std::size_t vertex_count, std::span<const VertexId> corners) {
+TriangleMesh::Faces make_unlinked_faces(std::size_t vertex_count, std::span<const VertexId> corners) {
     if (corners.size() % 3 != 0) {
         throw InputError("the number of corners, " + std::to_string(corners.size()) +
                          ", is not a multiple of three");
@@ -28,7 +28,7 @@ std::vector<Face> make_unlinked_faces(std::size_t vertex_count, std::span<const 
         throw InputError("too many faces or vertices for one mesh: " + std::to_string(corners.size() / 3) +
                          " faces, " + std::to_string(vertex_count) + " vertices");
     }
-    std::vector<Face> faces(corners.size() / 3);
+    TriangleMesh::Faces faces(corners.size() / 3);
     for (std::size_t f = 0; f < faces.size(); ++f) {
         for (std::size_t i = 0; i < 3; ++i) {
             const VertexId v = corners[3 * f + i];
@@ -54,15 +54,15 @@ struct EdgeUse {
     HalfEdgeId half_edge;
 };
 
-VertexId origin_of(const std::vector<Face>& faces, HalfEdgeId h) {
+VertexId origin_of(const TriangleMesh::Faces& faces, HalfEdgeId h) {
     return faces[face_of(h).value].vertex[corner_of(h)];
 }
-HalfEdgeId& twin_of(std::vector<Face>& faces, HalfEdgeId h) {
+HalfEdgeId& twin_of(TriangleMesh::Faces& faces, HalfEdgeId h) {
     return faces[face_of(h).value].twin[corner_of(h)];
 }
 
 /// Pairs the uses of the edges that share their lesser end.
-void link_uses(std::vector<Face>& faces, std::span<EdgeUse> uses) {
+void link_uses(TriangleMesh::Faces& faces, std::span<EdgeUse> uses) {
     std::sort(uses.begin(), uses.end(), [](const EdgeUse& a, const EdgeUse& b) {
         return a.greater_end != b.greater_end ? a.greater_end < b.greater_end : a.half_edge < b.half_edge;
     });
@@ -86,7 +86,7 @@ void link_uses(std::vector<Face>& faces, std::span<EdgeUse> uses) {
 }
 
 /// Finds twins by sorting the half-edges on their edge: first by the lesser end, counting, then within.
-void link_faces(std::vector<Face>& faces, std::size_t vertex_count) {
+void link_faces(TriangleMesh::Faces& faces, std::size_t vertex_count) {
     std::vector<std::uint32_t> first(vertex_count + 1, 0);
     const auto lesser_end = [](const Face& face, unsigned i) {
         return std::min(face.vertex[i], face.vertex[next_corner(i)]).value;
@@ -117,7 +117,7 @@ void link_faces(std::vector<Face>& faces, std::size_t vertex_count) {
 ///
 /// At a vertex that several border loops touch, each fan of faces closes with its own two ghosts: the turn
 /// is found by walking the fan from the border edge that leaves the vertex to the one that arrives.
-void add_ghosts(std::vector<Face>& faces) {
+void add_ghosts(TriangleMesh::Faces& faces) {
     const auto real = static_cast<std::uint32_t>(faces.size());
     for (std::uint32_t f = 0; f < real; ++f) {
         for (unsigned i = 0; i < 3; ++i) {
@@ -172,7 +172,7 @@ std::size_t TriangleMesh::count_terrain() const {
 }
 
 TriangleMesh make_mesh(std::size_t vertex_count, std::span<const VertexId> corners) {
-    std::vector<Face> faces = make_unlinked_faces(vertex_count, corners);
+    TriangleMesh::Faces faces = make_unlinked_faces(vertex_count, corners);
     link_faces(faces, vertex_count);
     add_ghosts(faces);
     return {vertex_count, std::move(faces)};

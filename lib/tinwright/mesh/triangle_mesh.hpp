@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <span>
 #include <utility>
-#include <vector>
 
+#include "tinwright/geometry/large_vector.hpp"
 #include "tinwright/mesh/handles.hpp"
 
 namespace tinwright {
@@ -39,8 +39,10 @@ class TriangleMesh {
         std::uint32_t spare = 0;
     };
 
+    using Faces = LargeVector<Face>;
+
     TriangleMesh() = default;
-    TriangleMesh(std::size_t vertex_count, std::vector<Face> faces)
+    TriangleMesh(std::size_t vertex_count, Faces faces)
         : faces_(std::move(faces)), vertex_count_(vertex_count) {}
 
     [[nodiscard]] std::size_t vertex_count() const { return vertex_count_; }
@@ -77,7 +79,7 @@ class TriangleMesh {
   private:
     static constexpr std::uint32_t kOutsideMark = 8;  // bits 0..2: half-edge i is constrained
 
-    std::vector<Face> faces_;
+    Faces faces_;
     std::size_t vertex_count_ = 0;
 };
 
