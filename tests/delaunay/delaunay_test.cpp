@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -32,16 +33,16 @@ std::vector<Key2> in_curve_order(std::vector<Key2> keys) {
     return sorted;
 }
 
-Tin make_tin(std::vector<Key2> keys) {
+Tin make_tin(const std::vector<Key2>& keys) {
     Tin tin;
-    tin.keys = std::move(keys);
+    tin.keys.assign(keys.begin(), keys.end());
     tin.z.assign(tin.keys.size(), 0.0);
     tin.sample.assign(tin.keys.size(), Tin::kNoSample);
     tin.mesh = make_delaunay(tin.keys);
     return tin;
 }
 
-bool are_collinear(const std::vector<Key2>& keys) {
+bool are_collinear(std::span<const Key2> keys) {
     return std::all_of(keys.begin(), keys.end(),
                        [&](Key2 key) { return oracle::orient2d(keys.front(), keys.back(), key) == 0; });
 }

@@ -8,6 +8,7 @@
 
 #include "tinwright/geometry/box.hpp"
 #include "tinwright/geometry/error.hpp"
+#include "tinwright/geometry/large_vector.hpp"
 #include "tinwright/geometry/lattice.hpp"
 #include "tinwright/geometry/point.hpp"
 
@@ -32,10 +33,10 @@ struct DuplicateReport {
 struct SampleVertices {
     Lattice lattice;
     Box bounds;              ///< of the samples, CRS units
-    std::vector<Key2> keys;  ///< distinct, in curve order (geometry/curve.hpp)
-    std::vector<double> z;   ///< one a key
-    std::vector<std::uint32_t>
-        sample;  ///< smallest index of the samples at the key (by policy First/Last: the one taken)
+    LargeVector<Key2> keys;  ///< distinct, in curve order (geometry/curve.hpp)
+    LargeVector<double> z;   ///< one a key
+    /// The smallest index of the samples at each key; under policies First and Last, that of the one taken.
+    LargeVector<std::uint32_t> sample;
     DuplicateReport duplicates;
 };
 

@@ -2,9 +2,9 @@
 #define TINWRIGHT_MESH_TIN_HPP
 
 #include <cstdint>
-#include <vector>
 
 #include "tinwright/geometry/box.hpp"
+#include "tinwright/geometry/large_vector.hpp"
 #include "tinwright/geometry/lattice.hpp"
 #include "tinwright/geometry/point.hpp"
 #include "tinwright/mesh/triangle_mesh.hpp"
@@ -18,9 +18,9 @@ struct Tin {
     static constexpr std::uint32_t kNoSample = 0xFFFFFFFFU;
 
     Lattice lattice;
-    std::vector<Key2> keys;             ///< one a vertex, distinct, in the order of `curve.hpp`
-    std::vector<double> z;              ///< one a vertex, in the samples' unit
-    std::vector<std::uint32_t> sample;  ///< index of the sample each vertex came from, or kNoSample
+    LargeVector<Key2> keys;             ///< one a vertex, distinct, in the order of `curve.hpp`
+    LargeVector<double> z;              ///< one a vertex, in the samples' unit
+    LargeVector<std::uint32_t> sample;  ///< index of the sample each vertex came from, or kNoSample
     TriangleMesh mesh;
 
     [[nodiscard]] std::size_t vertex_count() const { return keys.size(); }
