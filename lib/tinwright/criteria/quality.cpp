@@ -1,0 +1,188 @@
+#include "tinwright/criteria/quality.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace tinwright {
+
+namespace {
+
+constexpr double kDegrees = 180 / std::numbers::pi;
+
+struct Vector3 {
+    double x = 0;
+    double y = 0;
+    double z = 0;
+};
+
+/// From one vertex to another, CRS units; differences of keys are exact.
+Vector3 vector_between(const Tin& tin, VertexId from, VertexId to) {
+    const double quantum = tin.lattice.quantum();
+    const Key2 a = tin.key(from);
+    const Key2 b = tin.key(to);
+    return {(b.x - a.x) * quantum, (b.y - a.y) * quantum, tin.z[to.value] - tin.z[from.value]};
+}
+
+std::array<Vector3, 3> edges_of(const Tin& tin, FaceId face) {
+    const auto& v = tin.mesh.face(face).vertex;
+    return {vector_between(tin, v[0], v[1]), vector_between(tin, v[1], v[2]),
+            vector_between(tin, v[2], v[0])};
+}
+
+double length(const Vector3& v) { return std::hypot(v.x, v.y); }
+double cross(const Vector3& a, const Vector3& b) { return a.x * b.y - a.y * b.x; }
+
+/// The angle opposite the longest edge; from sine and cosine together, so that it is as good near 180
+/// degrees as elsewhere.
+double largest_angle_deg(const std::array<Vector3, 3>& edges) {
+    std::size_t longest = 0;
+    for (std::size_t i = 1; i < 3; ++i) {
+        longest = length(edges[i]) > length(edges[longest]) ? i : longest;
+    }
+    const Vector3& in = edges[(longest + 1) % 3];
+    const Vector3& out = edges[(longest + 2) % 3];
+    return std::atan2(std::abs(cross(in, out)), -(in.x * out.x + in.y * out.y)) * kDegrees;
+}
+
+double gradient_length(const std::array<Vector3, 3>& edges) {
+    const Vector3& a = edges[0];
+    const Vector3& b = edges[1];
+    return std::hypot(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z) / std::abs(cross(a, b));
+}
+
+/// 1, 2, 5, 10, ... around both values; powers of ten alone where that makes too many bins.
+std::vector<double> round_bounds(double minimum, double maximum) {
+    constexpr double kMostDecades = 6;
+    const double first = std::floor(std::log10(minimum));
+    const double last = std::ceil(std::log10(maximum));
+    std::vector<double> bounds;
+    for (double decade = first; decade <= last; ++decade) {
+        const double power = std::pow(10.0, decade);
+        bounds.push_back(power);
+        if (last - first <= kMostDecades && decade < last) {
+            bounds.push_back(2 * power);
+            bounds.push_back(5 * power);
+        }
+    }
+    // Only the bins that hold something: from the last bound at or below the minimum on.
+    const auto begin = std::prev(std::upper_bound(std::next(bounds.begin()), bounds.end(), minimum));
+    auto end = std::lower_bound(begin, bounds.end(), maximum);
+    end = end == bounds.end() ? end : std::next(end);
+    std::vector<double> kept(begin, end);
+    if (kept.size() == 1) {
+        kept.push_back(2 * kept.front());
+    }
+    return kept;
+}
+
+std::vector<double> histogram_bounds(FaceMeasure measure, double minimum, double maximum) {
+    switch (measure) {
+        case FaceMeasure::LargestAngle:
+            return {60, 75, 90, 105, 120, 135, 150, 165, 180};
+        case FaceMeasure::Slope:
+            return {0, 1, 2, 5, 10, 20, 30, 45, 60, 75, 90};
+        case FaceMeasure::LongestEdge:
+        case FaceMeasure::Area:
+            break;
+    }
+    return round_bounds(minimum, maximum);
+}
+
+Histogram make_histogram(const std::vector<double>& values, std::vector<double> bounds) {
+    Histogram histogram;
+    histogram.counts.resize(bounds.size() - 1, 0);
+    for (const double value : values) {
+        // Rounding may put a value a hair outside the outermost bounds: it belongs to the outermost bins.
+        const auto above = std::upper_bound(std::next(bounds.begin()), std::prev(bounds.end()), value);
+        ++histogram.counts[static_cast<std::size_t>(above - bounds.begin()) - 1];
+    }
+    histogram.bounds = std::move(bounds);
+    return histogram;
+}
+
+bool is_on_border(const TriangleMesh& mesh, FaceId face) {
+    return mesh.is_border(half_edge(face, 0)) || mesh.is_border(half_edge(face, 1)) ||
+           mesh.is_border(half_edge(face, 2));
+}
+
+std::vector<FaceValue> find_worst(const Tin& tin, const std::vector<FaceId>& faces,
+                                  const std::vector<double>& values, std::size_t count) {
+    std::vector<FaceValue> worst;
+    const auto is_worse = [](const FaceValue& a, const FaceValue& b) {
+        return a.value != b.value ? a.value > b.value : a.face < b.face;
+    };
+    for (std::size_t i = 0; i < faces.size() && count > 0; ++i) {
+        const FaceValue candidate{faces[i], values[i], false};
+        if (worst.size() == count && !is_worse(candidate, worst.back())) {
+            continue;
+        }
+        if (worst.size() == count) {
+            worst.pop_back();
+        }
+        worst.insert(std::upper_bound(worst.begin(), worst.end(), candidate, is_worse), candidate);
+    }
+    for (FaceValue& value : worst) {
+        value.is_on_border = is_on_border(tin.mesh, value.face);
+    }
+    return worst;
+}
+
+double value_of_rank(std::vector<double>& values, std::size_t rank) {
+    const auto nth = values.begin() + static_cast<std::ptrdiff_t>(std::min(rank, values.size() - 1));
+    std::nth_element(values.begin(), nth, values.end());
+    return *nth;
+}
+
+}  // namespace
+
+double measure_face(const Tin& tin, FaceId face, FaceMeasure measure) {
+    const std::array<Vector3, 3> edges = edges_of(tin, face);
+    switch (measure) {
+        case FaceMeasure::LargestAngle:
+            return largest_angle_deg(edges);
+        case FaceMeasure::Slope:
+            return std::atan(gradient_length(edges)) * kDegrees;
+        case FaceMeasure::LongestEdge:
+            return std::max({length(edges[0]), length(edges[1]), length(edges[2])});
+        case FaceMeasure::Area:
+            return std::abs(cross(edges[0], edges[1])) / 2;
+    }
+    return 0;
+}
+
+double slope_ratio(const Tin& tin, FaceId face) { return gradient_length(edges_of(tin, face)); }
+
+QualityReport assess_quality(const Tin& tin, std::size_t worst) {
+    std::vector<FaceId> faces;
+    for (std::uint32_t f = 0; f < tin.mesh.slot_count(); ++f) {
+        if (tin.mesh.is_terrain(FaceId{f})) {
+            faces.push_back(FaceId{f});
+        }
+    }
+    QualityReport report;
+    report.faces = faces.size();
+    if (faces.empty()) {
+        return report;
+    }
+    std::vector<double> values(faces.size());
+    for (const FaceMeasure measure : kFaceMeasures) {
+        for (std::size_t i = 0; i < faces.size(); ++i) {
+            values[i] = measure_face(tin, faces[i], measure);
+            report.area += measure == FaceMeasure::Area ? values[i] : 0;
+        }
+        const auto [minimum, maximum] = std::minmax_element(values.begin(), values.end());
+        MeasureSummary summary;
+        summary.measure = measure;
+        summary.minimum = *minimum;
+        summary.maximum = *maximum;
+        summary.histogram = make_histogram(values, histogram_bounds(measure, *minimum, *maximum));
+        summary.worst = find_worst(tin, faces, values, worst);
+        summary.median = value_of_rank(values, values.size() / 2);
+        summary.percentile_99 = value_of_rank(values, values.size() * 99 / 100);
+        report.summaries.push_back(std::move(summary));
+    }
+    return report;
+}
+
+}  // namespace tinwright

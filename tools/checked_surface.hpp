@@ -1,0 +1,48 @@
+#ifndef TINWRIGHT_TOOLS_CHECKED_SURFACE_HPP
+#define TINWRIGHT_TOOLS_CHECKED_SURFACE_HPP
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "tinwright/io/crs.hpp"
+#include "tinwright/mesh/face_check.hpp"
+
+#include "json_value.hpp"
+
+namespace tinwright::tools {
+
+/// A TIN file after its audit.
+struct CheckedSurface {
+    std::string file;
+    std::string layer;
+    io::Crs crs;
+    std::size_t vertices = 0;
+    std::vector<std::int64_t> face_ids;  ///< feature id of each face
+    FaceCheckReport report;
+
+    /// All violations, listed or not.
+    [[nodiscard]] std::size_t violation_count() const;
+};
+
+/// One line a listed violation.
+std::string violation_lines(const CheckedSurface& surface);
+/// One line: "file: 3 violations in 120 faces".
+std::string verdict_line(const CheckedSurface& surface);
+JsonValue checked_json(std::span<const CheckedSurface> surfaces, const std::vector<std::string>& outputs);
+
+struct ViolationLayerOptions {
+    std::string driver;  ///< empty: from the file's extension
+    bool overwrite = false;
+};
+
+/// Writes the listed violations as points, with the fields `surface` (number of the file, from 1), `kind`,
+/// `face` and `other` (feature ids). Throws UsageError, IoError.
+void write_violations(std::span<const CheckedSurface> surfaces, const std::string& target,
+                      const ViolationLayerOptions& options);
+
+}  // namespace tinwright::tools
+
+#endif

@@ -1,0 +1,24 @@
+#ifndef TINWRIGHT_TOOLS_COMMAND_CHECK_HPP
+#define TINWRIGHT_TOOLS_COMMAND_CHECK_HPP
+
+#include "command.hpp"
+#include "options_output.hpp"
+#include "options_sources.hpp"
+#include "options_talk.hpp"
+
+namespace tinwright::tools {
+
+/// `tinwright check`: audits TIN files and lists what keeps them from being surfaces.
+class CommandCheck : public Command {
+  public:
+    void setup(const std::vector<std::string>& arguments) override;
+    Outcome run() override;
+
+    SourceOptions sources;
+    OutputOptions output;
+    TalkOptions talk;
+};
+
+}  // namespace tinwright::tools
+
+#endif

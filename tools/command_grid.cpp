@@ -1,0 +1,136 @@
+#include "command_grid.hpp"
+
+#include "console.hpp"
+#include "job_report.hpp"
+#include "option_values.hpp"
+#include "surface_input.hpp"
+
+namespace tinwright::tools {
+
+namespace {
+
+/// What the raster says about itself: of a TIN file, what the file said of its faces.
+io::TinMetadata raster_metadata(const Surface& surface, const CommandGrid& command) {
+    const std::string method = "--method " + command.raster.method;
+    io::TinMetadata metadata{{"TINWRIGHT_VERSION", TINWRIGHT_VERSION}, {"TINWRIGHT_COMMAND", "grid"}};
+    if (surface.report) {
+        metadata.emplace_back("TINWRIGHT_CRITERION", command.triangulation.criterion);
+        metadata.emplace_back("TINWRIGHT_OPTIONS", command.triangulation.canonical() + " " + method);
+        return metadata;
+    }
+    const std::string criterion = metadata_value(surface.metadata, "TINWRIGHT_CRITERION");
+    if (!criterion.empty()) {
+        metadata.emplace_back("TINWRIGHT_CRITERION", criterion);
+    }
+    std::string options = metadata_value(surface.metadata, "TINWRIGHT_OPTIONS");
+    if (command.triangulation.max_edge) {
+        options +=
+            (options.empty() ? "--max-edge " : " --max-edge ") + number_text(*command.triangulation.max_edge);
+    }
+    metadata.emplace_back("TINWRIGHT_OPTIONS", options.empty() ? method : options + " " + method);
+    return metadata;
+}
+
+}  // namespace
+
+void CommandGrid::setup(const std::vector<std::string>& arguments) {
+    const auto parser = make_parser(
+        "grid", "Turns elevation samples, or an existing TIN, into a raster.", "SOURCE... -o FILE [options]",
+        {"tinwright grid survey.csv -o dem.tif",
+         "tinwright grid points.gpkg -o dem.tif --resolution 0.5 --co COMPRESS=ZSTD",
+         "tinwright grid tin.gpkg -o dem.tif --like other.tif --preview dem.png"});
+    sources.add_to(*parser);
+    sources.add_skip_bad_to(*parser);
+    output.add_to(*parser, "raster to write", "output driver (default: from the extension)");
+    output.add_creation_options_to(*parser);
+    raster.add_geometry_to(*parser);
+    raster.add_values_to(*parser);
+    triangulation.add_to(*parser, "trimmed");
+    crs.add_to(*parser);
+    triangulation.add_threads_to(*parser);
+    talk.add_to(*parser);
+    parse_options(*parser, arguments);
+
+    sources.finish();
+    output.finish(true);
+    raster.finish();
+    triangulation.finish(DomainRule::Kind::Trimmed);
+    talk.finish(output.is_stdout());
+    if (!raster.preview.empty() && raster.preview == output.path) {
+        throw UsageError("--preview and -o name the same file " + io::quoted(output.path));
+    }
+}
+
+io::WriteGridOptions CommandGrid::write_options() const {
+    io::WriteGridOptions options;
+    options.driver = output.driver;
+    options.data_type = raster.data_type;
+    options.nodata = raster.nodata;
+    options.creation_options = output.creation_options;
+    options.overwrite = output.overwrite;
+    options.preview = raster.preview;
+    options.threads = triangulation.threads;
+    return options;
+}
+
+GridGeometry CommandGrid::grid_for(const Surface& surface, const std::optional<GridGeometry>& like,
+                                   const io::Crs& like_crs) const {
+    if (!like) {
+        return choose_grid(surface.tin, raster.request);
+    }
+    if (like_crs.is_known() && surface.crs.is_known() && !like_crs.is_same(surface.crs)) {
+        throw UsageError("--like " + io::quoted(raster.like) + " is in " + like_crs.name() +
+                         ", the surface in " + surface.crs.name() +
+                         ": add --crs with the raster's CRS to transform the samples");
+    }
+    return *like;
+}
+
+Outcome CommandGrid::run() {
+    Console console("grid", talk);
+    refuse_to_overwrite_sources(output.path, sources.sources);
+    refuse_to_overwrite_sources(raster.preview, sources.sources);
+    io::WriteGridOptions options = write_options();
+    io::check_grid_target(output.path, options);
+    io::Crs like_crs;
+    std::optional<GridGeometry> like;
+    if (!raster.like.empty()) {
+        like = io::read_grid_geometry(raster.like, &like_crs);
+    }
+
+    const SurfaceRequest request{sources, crs, triangulation, false, 0.6};
+    const bool is_tin = is_existing_tin(request);
+    const Surface surface =
+        is_tin ? read_existing_tin(request, console) : triangulate_sources(request, console);
+    const GridGeometry grid = grid_for(surface, like, like_crs);
+    options.metadata = raster_metadata(surface, *this);
+    options.progress = console.progress().stage(0.6, 1);
+    const io::WrittenGrid written = io::write_grid(surface.tin, surface.crs, grid, output.path, options);
+    console.progress().finish();
+    for (const std::string& warning : written.warnings) {
+        console.warn(warning);
+    }
+    if (written.cells_with_value == 0) {
+        console.warn("no cell has a value: the extent does not meet the surface");
+    }
+
+    JobReport report;
+    report.command = "grid";
+    report.criterion =
+        is_tin ? metadata_value(surface.metadata, "TINWRIGHT_CRITERION") : triangulation.criterion;
+    report.domain = is_tin ? "as in the TIN" : triangulation.domain_name();
+    report.duplicate_policy = triangulation.policy_name();
+    report.raster = RasterReport{grid, written, !like && !raster.request.resolution && !raster.request.size};
+    report.outputs = {output.path};
+    if (!raster.preview.empty()) {
+        report.outputs.push_back(raster.preview);
+    }
+    report.output_driver = written.driver;
+    console.say(report_text(report, surface, talk.verbose));
+    if (talk.json) {
+        print_result(make_json(report, surface).text());
+    }
+    return Outcome::Done;
+}
+
+}  // namespace tinwright::tools

@@ -1,0 +1,40 @@
+#ifndef TINWRIGHT_TOOLS_COMMAND_GRID_HPP
+#define TINWRIGHT_TOOLS_COMMAND_GRID_HPP
+
+#include "tinwright/io/write_grid.hpp"
+
+#include "command.hpp"
+#include "options_crs.hpp"
+#include "options_output.hpp"
+#include "options_raster.hpp"
+#include "options_sources.hpp"
+#include "options_talk.hpp"
+#include "options_triangulation.hpp"
+
+namespace tinwright::tools {
+
+struct Surface;
+class Console;
+
+/// `tinwright grid`: sources, or one existing TIN, to a raster.
+class CommandGrid : public Command {
+  public:
+    void setup(const std::vector<std::string>& arguments) override;
+    Outcome run() override;
+
+    SourceOptions sources;
+    CrsOptions crs;
+    TriangulationOptions triangulation;
+    RasterOptions raster;
+    OutputOptions output;
+    TalkOptions talk;
+
+  private:
+    [[nodiscard]] io::WriteGridOptions write_options() const;
+    [[nodiscard]] GridGeometry grid_for(const Surface& surface, const std::optional<GridGeometry>& like,
+                                        const io::Crs& like_crs) const;
+};
+
+}  // namespace tinwright::tools
+
+#endif

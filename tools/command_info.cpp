@@ -1,0 +1,57 @@
+#include "command_info.hpp"
+
+#include "tinwright/criteria/quality.hpp"
+
+#include "console.hpp"
+#include "job_report.hpp"
+#include "quality_report.hpp"
+#include "surface_input.hpp"
+
+namespace tinwright::tools {
+
+void CommandInfo::setup(const std::vector<std::string>& arguments) {
+    const auto parser =
+        make_parser("info", "Tells what samples or a TIN are like; writes no file.", "SOURCE... [options]",
+                    {"tinwright info survey.csv", "tinwright info tin.gpkg --json"});
+    sources.add_to(*parser);
+    sources.add_skip_bad_to(*parser);
+    triangulation.add_to(*parser, "convex");
+    crs.add_to(*parser);
+    triangulation.add_threads_to(*parser);
+    talk.add_to(*parser);
+    parse_options(*parser, arguments);
+
+    sources.finish();
+    // Conflicts are to be counted and shown, not to end the command that was asked to show them.
+    triangulation.finish(DomainRule::Kind::Convex, DuplicatePolicy::Mean);
+    talk.finish(false);
+}
+
+Outcome CommandInfo::run() {
+    Console console("info", talk);
+    const SurfaceRequest request{sources, crs, triangulation};
+    const bool is_tin = is_existing_tin(request);
+    const Surface surface =
+        is_tin ? read_existing_tin(request, console) : triangulate_sources(request, console);
+    const QualityReport quality = assess_quality(surface.tin);
+    console.progress().finish();
+
+    JobReport report;
+    report.command = "info";
+    report.domain = is_tin ? "as in the TIN" : triangulation.domain_name();
+    report.duplicate_policy = triangulation.policy_name();
+    report.criterion =
+        is_tin ? metadata_value(surface.metadata, "TINWRIGHT_CRITERION") : triangulation.criterion;
+    if (talk.json) {
+        JsonValue json = make_json(report, surface);
+        add_content_json(json, surface);
+        add_quality_json(json, surface.tin, quality);
+        print_result(json.text());
+    } else {
+        print_result(report_text(report, surface, true) + content_text(surface) +
+                     quality_text(surface.tin, quality));
+    }
+    return Outcome::Done;
+}
+
+}  // namespace tinwright::tools

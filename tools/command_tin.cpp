@@ -1,0 +1,99 @@
+#include "command_tin.hpp"
+
+#include <chrono>
+#include <utility>
+
+#include "console.hpp"
+#include "job_report.hpp"
+#include "option_values.hpp"
+#include "surface_input.hpp"
+
+namespace tinwright::tools {
+
+namespace {
+
+using Geometry = io::WriteTinOptions::Geometry;
+
+constexpr std::pair<std::string_view, Geometry> kGeometries[] = {{"polygon", Geometry::Polygon},
+                                                                 {"tin", Geometry::Tin},
+                                                                 {"edges", Geometry::Edges},
+                                                                 {"vertices", Geometry::Vertices}};
+
+}  // namespace
+
+void CommandTin::setup(const std::vector<std::string>& arguments) {
+    const auto parser = make_parser(
+        "tin", "Triangulates elevation samples and writes the TIN.", "SOURCE... -o FILE [options]",
+        {"tinwright tin survey.csv -o survey.gpkg",
+         "tinwright tin points.gpkg,layer=ground,z=elev -o tin.shp --crs EPSG:3875",
+         "tinwright tin a.xyz b.xyz -o tin.gpkg --domain concave:50 --max-edge 80"});
+    sources.add_to(*parser);
+    sources.add_skip_bad_to(*parser);
+    output.add_to(*parser, "TIN file to write", "output driver (default: from the extension)");
+    output.add_creation_options_to(*parser);
+    add_repeatable(*parser, "--lco", layer_options, "KEY=VALUE", "layer creation option of the driver");
+    add_value(*parser, "--layer-name,--nln", layer_name, "NAME", "layer to write (single-layer drivers)");
+    add_value(*parser, "--geometry", geometry_text, "WHAT", "polygon (default)|tin|edges|vertices");
+    parser->add_flag("--ids", keep_ids, "record line and cell numbers as feature ids");
+    triangulation.add_to(*parser, "convex");
+    crs.add_to(*parser);
+    triangulation.add_threads_to(*parser);
+    talk.add_to(*parser);
+    parse_options(*parser, arguments);
+
+    sources.finish();
+    output.finish(true);
+    check_key_values("--lco", layer_options);
+    geometry = choice_value("--geometry", geometry_text, kGeometries);
+    triangulation.finish(DomainRule::Kind::Convex);
+    talk.finish(output.is_stdout());
+}
+
+io::WriteTinOptions CommandTin::write_options() const {
+    io::WriteTinOptions options;
+    options.driver = output.driver;
+    options.layer_name = layer_name;
+    options.geometry = geometry;
+    options.creation_options = output.creation_options;
+    options.layer_options = layer_options;
+    options.overwrite = output.overwrite;
+    options.metadata = {{"TINWRIGHT_VERSION", TINWRIGHT_VERSION},
+                        {"TINWRIGHT_COMMAND", "tin"},
+                        {"TINWRIGHT_CRITERION", triangulation.criterion},
+                        {"TINWRIGHT_OPTIONS", triangulation.canonical()}};
+    return options;
+}
+
+Outcome CommandTin::run() {
+    Console console("tin", talk);
+    refuse_to_overwrite_sources(output.path, sources.sources);
+    io::WriteTinOptions options = write_options();
+    io::check_tin_target(output.path, options);
+
+    const SurfaceRequest request{sources, crs, triangulation, keep_ids, 0.7};
+    Surface surface = triangulate_sources(request, console);
+    options.origins = std::move(surface.origins);
+    options.progress = console.progress().stage(0.7, 1);
+    const auto start = std::chrono::steady_clock::now();
+    const io::WrittenTin written = io::write_tin(surface.tin, surface.crs, output.path, options);
+    console.progress().finish();
+    for (const std::string& warning : written.warnings) {
+        console.warn(warning);
+    }
+
+    JobReport report;
+    report.command = "tin";
+    report.criterion = triangulation.criterion;
+    report.domain = triangulation.domain_name();
+    report.duplicate_policy = triangulation.policy_name();
+    report.outputs = {output.path};
+    report.output_driver = written.driver;
+    report.write_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    console.say(report_text(report, surface, talk.verbose));
+    if (talk.json) {
+        print_result(make_json(report, surface).text());
+    }
+    return Outcome::Done;
+}
+
+}  // namespace tinwright::tools

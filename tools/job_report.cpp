@@ -1,0 +1,242 @@
+#include "job_report.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include <sys/resource.h>
+
+#include "option_values.hpp"
+
+namespace tinwright::tools {
+
+namespace {
+
+std::size_t count_constrained_edges(const TriangleMesh& mesh) {
+    std::size_t edges = 0;
+    for (std::uint32_t f = 0; f < mesh.slot_count(); ++f) {
+        for (unsigned corner = 0; corner < 3; ++corner) {
+            const HalfEdgeId h = half_edge(FaceId{f}, corner);
+            edges += mesh.is_constrained(h) && h < mesh.twin(h) ? 1U : 0U;
+        }
+    }
+    return edges;
+}
+
+Box bounds_of(const Surface& surface) {
+    return surface.report ? surface.report->bounds : surface.tin.bounds();
+}
+
+std::string counted(std::size_t count, const std::string& singular, const std::string& plural) {
+    return std::to_string(count) + " " + (count == 1 ? singular : plural);
+}
+
+std::string fixed(double value, int decimals) {
+    char text[64];
+    std::snprintf(text, sizeof text, "%.*f", decimals, value);
+    return text;
+}
+
+JsonValue raster_json(const RasterReport& raster) {
+    const GridGeometry& grid = raster.grid;
+    const Box extent = grid.extent();
+    return JsonValue::object()
+        .set("columns", grid.columns)
+        .set("rows", grid.rows)
+        .set("cell_width", grid.cell_width)
+        .set("cell_height", grid.cell_height)
+        .set("extent", JsonValue::array_of({extent.x_min, extent.y_min, extent.x_max, extent.y_max}))
+        .set("cells_with_value", raster.written.cells_with_value)
+        .set("nodata",
+             std::isnan(raster.written.nodata) ? JsonValue("nan") : JsonValue(raster.written.nodata))
+        .set("type", raster.written.data_type);
+}
+
+JsonValue timings_json(const JobReport& report, const Surface& surface) {
+    JsonValue timings = JsonValue::object();
+    timings.set("read", surface.read_seconds);
+    if (surface.report) {
+        timings.set("triangulate", surface.report->triangulate_seconds);
+        timings.set("constrain", surface.report->constrain_seconds);
+    }
+    if (report.raster) {
+        timings.set("interpolate", report.raster->written.interpolate_seconds);
+        timings.set("write", report.raster->written.write_seconds);
+    } else if (!report.outputs.empty()) {
+        timings.set("write", report.write_seconds);
+    }
+    return timings;
+}
+
+std::string input_line(const Surface& surface) {
+    if (!surface.report) {
+        return "a TIN with " + counted(surface.tin.mesh.count_terrain(), "face", "faces") + " and " +
+               counted(surface.tin.vertex_count(), "vertex", "vertices");
+    }
+    std::size_t skipped = 0;
+    std::size_t sources = 0;
+    for (const io::SampleSlice& slice : surface.slices) {
+        skipped += slice.skipped;
+        sources = std::max(sources, slice.source + 1);
+    }
+    std::string text = counted(surface.report->samples, "sample", "samples") + " from " +
+                       counted(sources, "source", "sources");
+    return skipped == 0 ? text : text + "; " + counted(skipped, "bad row", "bad rows") + " skipped";
+}
+
+std::string duplicates_line(const JobReport& report, const DuplicateReport& duplicates) {
+    std::string text = std::to_string(duplicates.equal) + " equal";
+    if (duplicates.conflicting > 0) {
+        text += ", " + std::to_string(duplicates.conflicting) + " conflicting (" + report.duplicate_policy +
+                " taken)";
+    }
+    return text;
+}
+
+std::string conflict_lines(const DuplicateReport& duplicates) {
+    std::string lines;
+    for (const DuplicateConflict& conflict : duplicates.first) {
+        lines += "    at (" + number_text(conflict.location.x) + ", " + number_text(conflict.location.y) +
+                 "): z from " + number_text(conflict.z_min) + " to " + number_text(conflict.z_max) + "\n";
+    }
+    return lines;
+}
+
+std::string tin_line(const JobReport& report, const Surface& surface) {
+    const std::size_t faces = surface.report ? surface.report->faces : surface.tin.mesh.count_terrain();
+    std::string text = counted(faces, "face", "faces") + " on " +
+                       counted(surface.tin.vertex_count(), "vertex", "vertices") + ", domain " +
+                       report.domain;
+    if (surface.report && surface.report->domain.trimmed_faces > 0) {
+        text += " (" + std::to_string(surface.report->domain.trimmed_faces) + " border faces dropped)";
+    }
+    const std::size_t voids = surface.report ? surface.report->domain.void_faces : surface.void_faces;
+    if (voids > 0) {
+        text += ", " + counted(voids, "face", "faces") + " dropped as voids";
+    }
+    return text;
+}
+
+std::string raster_line(const RasterReport& raster) {
+    const GridGeometry& grid = raster.grid;
+    const double cells = static_cast<double>(grid.columns) * static_cast<double>(grid.rows);
+    const double share = 100 * static_cast<double>(raster.written.cells_with_value) / cells;
+    std::string size = number_text(grid.cell_width);
+    if (grid.cell_height != grid.cell_width) {
+        size += " x " + number_text(grid.cell_height);
+    }
+    return std::to_string(grid.columns) + " x " + std::to_string(grid.rows) + " cells of " + size +
+           (raster.is_resolution_chosen ? " (chosen from the sample spacing)" : "") + ", " + fixed(share, 1) +
+           " % with a value, nodata " + number_text(raster.written.nodata);
+}
+
+std::string crs_line(const Surface& surface) {
+    const std::string unit = surface.crs.unit();
+    return surface.crs.name() + (unit.empty() ? "" : ", unit " + unit) +
+           (surface.z_unit.empty() ? "" : ", z in " + surface.z_unit);
+}
+
+std::string times_line(const JobReport& report, const Surface& surface) {
+    std::string times = "read " + fixed(surface.read_seconds, 2);
+    if (surface.report) {
+        times += ", triangulate " + fixed(surface.report->triangulate_seconds, 2) + ", domain " +
+                 fixed(surface.report->constrain_seconds, 2);
+    }
+    if (report.raster) {
+        times += ", interpolate " + fixed(report.raster->written.interpolate_seconds, 2) + ", write " +
+                 fixed(report.raster->written.write_seconds, 2);
+    } else if (!report.outputs.empty()) {
+        times += ", write " + fixed(report.write_seconds, 2);
+    }
+    return times;
+}
+
+}  // namespace
+
+std::size_t peak_memory_bytes() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<std::size_t>(usage.ru_maxrss) * 1024;  // kilobytes on Linux
+}
+
+JsonValue crs_json(const io::Crs& crs) {
+    if (!crs.is_known()) {
+        return {};
+    }
+    JsonValue value = JsonValue::object();
+    if (!crs.code().empty()) {
+        value.set("code", crs.code());
+    }
+    return value.set("name", crs.name()).set("unit", crs.unit()).set("wkt", crs.wkt());
+}
+
+JsonValue make_json(const JobReport& report, const Surface& surface) {
+    const Box bounds = bounds_of(surface);
+    JsonValue json = JsonValue::object();
+    json.set("version", TINWRIGHT_VERSION).set("command", report.command).set("crs", crs_json(surface.crs));
+    json.set("bounds", JsonValue::array_of({bounds.x_min, bounds.y_min, bounds.x_max, bounds.y_max}));
+    if (surface.report) {
+        json.set("samples", surface.report->samples);
+    }
+    json.set("vertices", surface.tin.vertex_count());
+    json.set("faces", surface.report ? surface.report->faces : surface.tin.mesh.count_terrain());
+    if (surface.report) {
+        json.set("hull_vertices", surface.report->hull_vertices);
+    }
+    json.set("quantum", surface.tin.lattice.quantum());
+    if (surface.report) {
+        const DuplicateReport& duplicates = surface.report->duplicates;
+        json.set(
+            "duplicates",
+            JsonValue::object().set("equal", duplicates.equal).set("conflicting", duplicates.conflicting));
+    }
+    json.set("constrained_edges", count_constrained_edges(surface.tin.mesh));
+    if (surface.report) {
+        json.set("steiner_vertices", 0).set("conflicts", 0);
+    }
+    if (!report.criterion.empty()) {
+        json.set("criterion", JsonValue::object().set("name", report.criterion));
+    }
+    if (surface.report) {
+        json.set("conforming", true);  // nothing but Delaunay edges: no constraint can break them
+    }
+    json.set("domain", report.domain);
+    if (report.raster) {
+        json.set("raster", raster_json(*report.raster));
+    }
+    json.set("outputs", JsonValue::array_of(report.outputs));
+    json.set("timings", timings_json(report, surface));
+    return json.set("peak_memory_bytes", peak_memory_bytes());
+}
+
+std::string report_text(const JobReport& report, const Surface& surface, bool is_verbose) {
+    std::string text = "tinwright " + report.command + ": " + input_line(surface) + "\n";
+    const auto add = [&text](const std::string& label, const std::string& value) {
+        text += "  " + label + std::string(12 - label.size(), ' ') + value + "\n";
+    };
+    add("CRS", crs_line(surface));
+    const Box bounds = bounds_of(surface);
+    add("extent", number_text(bounds.x_min) + " " + number_text(bounds.y_min) + " " +
+                      number_text(bounds.x_max) + " " + number_text(bounds.y_max));
+    add("quantum", number_text(surface.tin.lattice.quantum()) +
+                       (surface.tin.lattice.is_exact() ? "" : " (coordinates rounded to it)"));
+    if (surface.report && surface.report->duplicates.equal + surface.report->duplicates.conflicting > 0) {
+        add("duplicates", duplicates_line(report, surface.report->duplicates));
+        text += is_verbose ? conflict_lines(surface.report->duplicates) : "";
+    }
+    add("TIN", tin_line(report, surface));
+    if (report.raster) {
+        add("raster", raster_line(*report.raster));
+    }
+    for (std::size_t i = 0; i < report.outputs.size(); ++i) {
+        const std::string type = report.raster ? ", " + report.raster->written.data_type : std::string();
+        add("wrote", report.outputs[i] + (i == 0 ? " (" + report.output_driver + type + ")" : ""));
+    }
+    if (is_verbose) {
+        add("seconds", times_line(report, surface));
+        add("memory", fixed(static_cast<double>(peak_memory_bytes()) / 1048576.0, 0) + " MiB at the peak");
+    }
+    return text;
+}
+
+}  // namespace tinwright::tools

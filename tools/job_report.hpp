@@ -1,0 +1,49 @@
+#ifndef TINWRIGHT_TOOLS_JOB_REPORT_HPP
+#define TINWRIGHT_TOOLS_JOB_REPORT_HPP
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tinwright/io/write_grid.hpp"
+
+#include "json_value.hpp"
+#include "surface_input.hpp"
+
+namespace tinwright::tools {
+
+/// A raster that was written.
+struct RasterReport {
+    GridGeometry grid;
+    io::WrittenGrid written;
+    bool is_resolution_chosen = false;  ///< by us, not by the user
+};
+
+/// What a finished command has to tell, once for people and once as JSON (docs/json.md).
+struct JobReport {
+    std::string command;
+    std::string criterion;  ///< empty: unknown (a foreign TIN)
+    std::string domain;
+    std::string duplicate_policy;
+    std::optional<RasterReport> raster;
+    std::vector<std::string> outputs;
+    std::string output_driver;
+    double write_seconds = 0;
+};
+
+/// The report's keys for `surface` and what was made of it.
+JsonValue make_json(const JobReport& report, const Surface& surface);
+
+/// The report for people, as lines: what was read, what came of it, where it went.
+std::string report_text(const JobReport& report, const Surface& surface, bool is_verbose);
+
+/// Code, name, unit and WKT; null when unknown.
+JsonValue crs_json(const io::Crs& crs);
+
+/// Largest resident memory of this process so far, bytes.
+std::size_t peak_memory_bytes();
+
+}  // namespace tinwright::tools
+
+#endif

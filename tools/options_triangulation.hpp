@@ -1,0 +1,46 @@
+#ifndef TINWRIGHT_TOOLS_OPTIONS_TRIANGULATION_HPP
+#define TINWRIGHT_TOOLS_OPTIONS_TRIANGULATION_HPP
+
+#include <string>
+
+#include "tinwright/optimal/triangulate.hpp"
+
+#include "parse_options.hpp"
+
+namespace tinwright::tools {
+
+/// How samples become a TIN.
+struct TriangulationOptions {
+    std::string criterion = "delaunay";
+    std::string domain_text;  ///< empty: the command's default
+    std::string max_edge_text;
+    std::string duplicates_text;
+    std::string tolerance_text;
+    std::string threads_text;
+
+    // After `finish`:
+    DuplicateOptions duplicates;
+    DomainRule domain;
+    std::optional<double> max_edge;
+    int threads = 0;
+
+    /// `default_domain` is for the help text.
+    void add_to(CLI::App& parser, const std::string& default_domain);
+    void add_threads_to(CLI::App& parser);
+    /// Reads the texts; what is not given gets the defaults. Throws UsageError.
+    void finish(DomainRule::Kind default_domain, DuplicatePolicy default_policy = DuplicatePolicy::Error);
+
+    /// The first option given that makes no sense for a TIN whose faces already exist, or empty.
+    [[nodiscard]] std::string option_for_samples_only() const;
+
+    [[nodiscard]] TriangulateOptions library_options(const Progress& progress) const;
+    /// "convex", "trimmed" or "concave:LENGTH".
+    [[nodiscard]] std::string domain_name() const;
+    [[nodiscard]] std::string policy_name() const;
+    /// The options that affect a TIN's faces, in a fixed order: what outputs record.
+    [[nodiscard]] std::string canonical() const;
+};
+
+}  // namespace tinwright::tools
+
+#endif

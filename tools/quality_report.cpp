@@ -1,0 +1,188 @@
+#include "quality_report.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <utility>
+
+#include "tinwright/io/gdal_session.hpp"
+
+#include "option_values.hpp"
+
+namespace tinwright::tools {
+
+namespace {
+
+struct MeasureWords {
+    const char* key;    ///< in JSON
+    const char* title;  ///< for people
+    const char* unit;
+};
+
+MeasureWords words_of(FaceMeasure measure) {
+    switch (measure) {
+        case FaceMeasure::LargestAngle:
+            return {"largest_angle_deg", "largest angle", " deg"};
+        case FaceMeasure::Slope:
+            return {"slope_deg", "slope", " deg"};
+        case FaceMeasure::LongestEdge:
+            return {"longest_edge", "longest edge", ""};
+        case FaceMeasure::Area:
+            return {"area", "area", ""};
+    }
+    return {"", "", ""};
+}
+
+std::string short_number(double value) {
+    char text[48];
+    std::snprintf(text, sizeof text, "%.6g", value);
+    return text;
+}
+
+std::pair<double, double> z_range(const Tin& tin) {
+    const auto [low, high] = std::minmax_element(tin.z.begin(), tin.z.end());
+    return {*low, *high};
+}
+
+const char* kind_name(io::SampleSlice::Kind kind) {
+    switch (kind) {
+        case io::SampleSlice::Kind::Vector:
+            return "vector";
+        case io::SampleSlice::Kind::Text:
+            return "text";
+        case io::SampleSlice::Kind::Raster:
+            return "raster";
+    }
+    return "";
+}
+
+std::array<Point3, 3> corners_of(const Tin& tin, FaceId face) {
+    const auto& v = tin.mesh.face(face).vertex;
+    return {tin.position(v[0]), tin.position(v[1]), tin.position(v[2])};
+}
+
+std::string histogram_lines(const Histogram& histogram, const char* unit) {
+    constexpr std::size_t kBar = 40;
+    const std::size_t most = *std::max_element(histogram.counts.begin(), histogram.counts.end());
+    std::string lines;
+    for (std::size_t i = 0; i < histogram.counts.size(); ++i) {
+        char line[96];
+        const std::string range =
+            number_text(histogram.bounds[i]) + " to " + number_text(histogram.bounds[i + 1]);
+        std::snprintf(line, sizeof line, "    %16s%s %10zu ", range.c_str(), unit, histogram.counts[i]);
+        const std::size_t bar = (histogram.counts[i] * kBar + most - 1) / most;
+        lines += line + std::string(bar, '#') + "\n";
+    }
+    return lines;
+}
+
+std::string worst_lines(const Tin& tin, const MeasureSummary& summary, const char* unit) {
+    std::string lines = "    greatest:\n";
+    for (const FaceValue& face : summary.worst) {
+        lines += "      " + short_number(face.value) + unit + " at";
+        for (const Point3& corner : corners_of(tin, face.face)) {
+            lines += " (" + number_text(corner.x) + " " + number_text(corner.y) + " " +
+                     number_text(corner.z) + ")";
+        }
+        lines += face.is_on_border ? ", on the border\n" : "\n";
+    }
+    return lines;
+}
+
+JsonValue worst_json(const Tin& tin, const MeasureSummary& summary) {
+    JsonValue list = JsonValue::array();
+    for (const FaceValue& face : summary.worst) {
+        JsonValue corners = JsonValue::array();
+        for (const Point3& corner : corners_of(tin, face.face)) {
+            corners.append(JsonValue::array_of({corner.x, corner.y, corner.z}));
+        }
+        list.append(JsonValue::object()
+                        .set("value", face.value)
+                        .set("on_border", face.is_on_border)
+                        .set("corners", corners));
+    }
+    return list;
+}
+
+}  // namespace
+
+std::string content_text(const Surface& surface) {
+    std::string text;
+    for (const io::SampleSlice& slice : surface.slices) {
+        text += "  source      " + slice.file + (slice.layer.empty() ? "" : ", " + slice.layer) + ": " +
+                std::to_string(slice.count) + " samples\n";
+    }
+    if (surface.tin.vertex_count() > 0) {
+        const auto [low, high] = z_range(surface.tin);
+        text += "  z           " + number_text(low) + " to " + number_text(high) + "\n";
+    }
+    for (const auto& [key, value] : surface.metadata) {
+        text += "  " + key + " = " + value + "\n";
+    }
+    return text;
+}
+
+void add_content_json(JsonValue& json, const Surface& surface) {
+    JsonValue sources = JsonValue::array();
+    for (const io::SampleSlice& slice : surface.slices) {
+        sources.append(JsonValue::object()
+                           .set("file", slice.file)
+                           .set("layer", slice.layer)
+                           .set("kind", kind_name(slice.kind))
+                           .set("samples", slice.count)
+                           .set("skipped", slice.skipped));
+    }
+    if (surface.report) {
+        json.set("sources", sources);
+    }
+    if (surface.tin.vertex_count() > 0) {
+        const auto [low, high] = z_range(surface.tin);
+        json.set("z",
+                 JsonValue::object().set("minimum", low).set("maximum", high).set("unit", surface.z_unit));
+    }
+    JsonValue metadata = JsonValue::object();
+    for (const auto& [key, value] : surface.metadata) {
+        metadata.set(key, value);
+    }
+    if (!surface.report) {
+        json.set("layer", surface.tin_layer).set("metadata", metadata);
+    }
+}
+
+std::string quality_text(const Tin& tin, const QualityReport& quality) {
+    std::string text;
+    for (const MeasureSummary& summary : quality.summaries) {
+        const MeasureWords words = words_of(summary.measure);
+        text += std::string("  ") + words.title + ": from " + short_number(summary.minimum) + " to " +
+                short_number(summary.maximum) + words.unit + ", median " + short_number(summary.median) +
+                ", 99 % up to " + short_number(summary.percentile_99) + "\n" +
+                histogram_lines(summary.histogram, words.unit) + worst_lines(tin, summary, words.unit);
+    }
+    return text;
+}
+
+void add_quality_json(JsonValue& json, const Tin& tin, const QualityReport& quality) {
+    json.set("area", quality.area);
+    JsonValue measures = JsonValue::object();
+    for (const MeasureSummary& summary : quality.summaries) {
+        JsonValue counts = JsonValue::array();
+        for (const std::size_t count : summary.histogram.counts) {
+            counts.append(count);
+        }
+        JsonValue measure = JsonValue::object();
+        measure.set("minimum", summary.minimum)
+            .set("median", summary.median)
+            .set("percentile_99", summary.percentile_99)
+            .set("maximum", summary.maximum);
+        if (summary.measure == FaceMeasure::Slope) {
+            measure.set("maximum_ratio", slope_ratio(tin, summary.worst.front().face));
+        }
+        measure.set("histogram", JsonValue::object()
+                                     .set("bounds", JsonValue::array_of(summary.histogram.bounds))
+                                     .set("counts", counts));
+        measures.set(words_of(summary.measure).key, measure.set("worst", worst_json(tin, summary)));
+    }
+    json.set("measures", measures);
+}
+
+}  // namespace tinwright::tools

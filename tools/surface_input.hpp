@@ -1,0 +1,60 @@
+#ifndef TINWRIGHT_TOOLS_SURFACE_INPUT_HPP
+#define TINWRIGHT_TOOLS_SURFACE_INPUT_HPP
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "tinwright/io/read_samples.hpp"
+#include "tinwright/io/write_tin.hpp"
+#include "tinwright/mesh/tin.hpp"
+#include "tinwright/optimal/triangulate.hpp"
+
+#include "console.hpp"
+#include "options_crs.hpp"
+#include "options_sources.hpp"
+#include "options_triangulation.hpp"
+
+namespace tinwright::tools {
+
+/// A TIN at hand, triangulated just now or read from a file.
+struct Surface {
+    Tin tin;
+    io::Crs crs;
+    std::string z_unit;
+    std::vector<io::SampleSlice> slices;      ///< what was read, without ids; empty for a TIN file
+    std::optional<TriangulateReport> report;  ///< only when triangulated
+    io::VertexOrigins origins;                ///< as a TIN file keeps them
+    io::TinMetadata metadata;                 ///< of the TIN file
+    std::string tin_layer;                    ///< of the TIN file
+    std::size_t void_faces = 0;               ///< dropped by --max-edge from a TIN file
+    double read_seconds = 0;
+};
+
+/// How sources become a surface. `progress_end`: the share of the whole job that ends with the TIN.
+struct SurfaceRequest {
+    const SourceOptions& sources;
+    const CrsOptions& crs;
+    const TriangulationOptions& triangulation;
+    bool keep_ids = false;  ///< ids of text rows and raster cells too
+    double progress_end = 1;
+};
+
+/// The value of a key, or empty.
+std::string metadata_value(const io::TinMetadata& metadata, const std::string& key);
+
+/// Whether the sources are one existing TIN. Throws UsageError when a TIN stands among several sources, or
+/// when an option is given that a TIN's own faces leave no room for.
+bool is_existing_tin(const SurfaceRequest& request);
+
+/// Reads samples and triangulates them. Warnings go to the console; errors about samples get the file and
+/// line or feature of each added.
+Surface triangulate_sources(const SurfaceRequest& request, Console& console);
+
+/// Reads the one source as a TIN.
+Surface read_existing_tin(const SurfaceRequest& request, Console& console);
+
+}  // namespace tinwright::tools
+
+#endif
