@@ -89,6 +89,16 @@ TEST_SUITE("criteria/quality") {
         CHECK(histogram.counts.back() == 1);
     }
 
+    TEST_CASE("a power of ten that all values share makes one bin") {
+        // Two right triangles with legs of 2 and 1: every area is 1.
+        const Tin tin =
+            make_small_tin({{0, 0}, {2, 0}, {2, 1}, {0, 1}}, {0, 0, 0, 0}, {{0}, {1}, {2}, {0}, {2}, {3}});
+        const QualityReport report = assess_quality(tin);
+        const Histogram& histogram = summary_of(report, FaceMeasure::Area).histogram;
+        CHECK(histogram.bounds == std::vector<double>{1, 2});
+        CHECK(histogram.counts == std::vector<std::size_t>{2});
+    }
+
     TEST_CASE("a TIN without faces has no summaries") {
         Tin tin;
         CHECK(assess_quality(tin).faces == 0);

@@ -55,7 +55,7 @@ double gradient_length(const std::array<Vector3, 3>& edges) {
 std::vector<double> round_bounds(double minimum, double maximum) {
     constexpr double kMostDecades = 6;
     const double first = std::floor(std::log10(minimum));
-    const double last = std::ceil(std::log10(maximum));
+    const double last = std::max(std::ceil(std::log10(maximum)), first + 1);
     std::vector<double> bounds;
     for (double decade = first; decade <= last; ++decade) {
         const double power = std::pow(10.0, decade);
@@ -65,15 +65,13 @@ std::vector<double> round_bounds(double minimum, double maximum) {
             bounds.push_back(5 * power);
         }
     }
-    // Only the bins that hold something: from the last bound at or below the minimum on.
-    const auto begin = std::prev(std::upper_bound(std::next(bounds.begin()), bounds.end(), minimum));
-    auto end = std::lower_bound(begin, bounds.end(), maximum);
-    end = end == bounds.end() ? end : std::next(end);
-    std::vector<double> kept(begin, end);
-    if (kept.size() == 1) {
-        kept.push_back(2 * kept.front());
+    // No empty bins at the ends.
+    while (bounds.size() > 2 && bounds[bounds.size() - 2] >= maximum) {
+        bounds.pop_back();
     }
-    return kept;
+    const auto above = std::upper_bound(std::next(bounds.begin()), std::prev(bounds.end()), minimum);
+    bounds.erase(bounds.begin(), std::prev(above));
+    return bounds;
 }
 
 std::vector<double> histogram_bounds(FaceMeasure measure, double minimum, double maximum) {
