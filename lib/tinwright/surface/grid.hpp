@@ -31,13 +31,13 @@ struct GridGeometry {
 
 /// What the user said about the raster; the rest is chosen.
 struct GridRequest {
-    std::optional<Box> extent;         ///< CRS units
-    std::optional<Point2> resolution;  ///< cell width and height, CRS units, > 0
+    std::optional<Box> extent = std::nullopt;         ///< CRS units
+    std::optional<Point2> resolution = std::nullopt;  ///< cell width and height, CRS units, > 0
     struct Size {
         std::int64_t columns = 0;
         std::int64_t rows = 0;
     };
-    std::optional<Size> size;
+    std::optional<Size> size = std::nullopt;
     bool align_to_resolution = false;  ///< --tap: edges at multiples of the resolution
 };
 
