@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <numeric>
 #include <optional>
 #include <random>
 #include <string>
@@ -252,7 +253,49 @@ WholeCase make_case(Family family, std::mt19937_64& random) {
     return whole;
 }
 
-bool is_plane(const Tin& tin) { return tin.mesh.count_terrain() > 0; }
+/// A long edge, and centres as near to it as whole numbers can be: the doubled area they make with it is 1.
+WholeCase make_near_miss(std::mt19937_64& random) {
+    WholeCase whole;
+    Whole far{pick(random, 1, std::int64_t{1} << 38), pick(random, 1, std::int64_t{1} << 38)};
+    const std::int64_t divisor = std::gcd(far.x, far.y);
+    far = {far.x / divisor, far.y / divisor};
+    // Convergents of far.x / far.y; the last before the ratio itself is the near miss.
+    Whole near{1, 0};
+    Whole before{0, 1};
+    for (std::int64_t a = far.x, b = far.y; b != 0;) {
+        const std::int64_t quotient = a / b;
+        const Whole convergent{quotient * near.x + before.x, quotient * near.y + before.y};
+        if (convergent.x == far.x) {
+            break;
+        }
+        before = near;
+        near = convergent;
+        const std::int64_t rest = a - quotient * b;
+        a = b;
+        b = rest;
+    }
+    whole.samples = {{0, 0}, far};
+    // Both sides of the edge, or one, so that it is inside the terrain or its border.
+    whole.samples.push_back({far.x, 0});
+    if (random() % 2 == 0) {
+        whole.samples.push_back({0, far.y});
+    }
+    if (random() % 2 == 0) {
+        whole.samples[2] = {0, far.y};
+    }
+    for (std::size_t i = 0; i < whole.samples.size(); ++i) {
+        whole.z.push_back(static_cast<double>(pick(random, -1000, 1000)) / 8);
+    }
+    whole.columns = pick(random, 1, 20);
+    whole.rows = pick(random, 1, 20);
+    const std::int64_t widest = random() % 2 == 0 ? 4 : std::max(far.x, far.y) / 8 + 4;
+    whole.cell = {2 * pick(random, 1, widest), 2 * pick(random, 1, widest)};
+    whole.corner = {near.x - whole.cell.x / 2 - whole.cell.x * pick(random, 0, whole.columns - 1),
+                    near.y + whole.cell.y / 2 + whole.cell.y * pick(random, 0, whole.rows - 1)};
+    return whole;
+}
+
+bool has_faces(const Tin& tin) { return tin.mesh.count_terrain() > 0; }
 
 }  // namespace
 
@@ -269,7 +312,7 @@ TEST_SUITE("surface/scan_conversion") {
                     continue;
                 }
                 Tin tin = make_tin(samples);
-                if (!is_plane(tin)) {
+                if (!has_faces(tin)) {
                     continue;
                 }
                 check_against_oracle(whole, tin);
@@ -278,6 +321,18 @@ TEST_SUITE("surface/scan_conversion") {
                         tin.mesh.set_terrain({f}, false);
                     }
                 }
+                check_against_oracle(whole, tin);
+            }
+        }
+    }
+
+    TEST_CASE("a centre as near to an edge as can be is on its right side") {
+        for (std::uint64_t seed = 1; seed <= cases(2000); ++seed) {
+            CAPTURE(seed);
+            std::mt19937_64 random(seed);
+            const WholeCase whole = make_near_miss(random);
+            const Tin tin = make_tin(samples_of(whole));
+            if (has_faces(tin)) {
                 check_against_oracle(whole, tin);
             }
         }
