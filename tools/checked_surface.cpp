@@ -1,16 +1,13 @@
 #include "checked_surface.hpp"
 
-#include <memory>
+#include <array>
 #include <numeric>
 
-#include <cpl_conv.h>
-#include <cpl_string.h>
-#include <gdal_priv.h>
 #include <ogrsf_frmts.h>
 
-#include "tinwright/geometry/error.hpp"
 #include "tinwright/io/atomic_output.hpp"
-#include "tinwright/io/gdal_session.hpp"
+#include "tinwright/io/tin_dataset.hpp"
+#include "tinwright/io/tin_drivers.hpp"
 
 #include "option_values.hpp"
 
@@ -49,63 +46,6 @@ JsonValue violation_json(const CheckedSurface& surface, const FaceViolation& vio
         json.set("other", surface.face_ids[violation.other]);
     }
     return json.set("location", JsonValue::array_of({at.x, at.y, at.z}));
-}
-
-struct CloseDataset {
-    void operator()(GDALDataset* dataset) const { GDALClose(dataset); }
-};
-using DatasetPointer = std::unique_ptr<GDALDataset, CloseDataset>;
-
-/// The driver asked for, or the first that writes vector files with the target's extension.
-GDALDriver& find_driver(const std::string& target, const std::string& name) {
-    if (!name.empty()) {
-        GDALDriver* const driver = GetGDALDriverManager()->GetDriverByName(name.c_str());
-        if (driver == nullptr || driver->GetMetadataItem(GDAL_DCAP_VECTOR) == nullptr) {
-            throw UsageError("--of " + io::quoted(name) + " is no vector driver of GDAL here");
-        }
-        return *driver;
-    }
-    const std::string extension = CPLGetExtension(target.c_str());
-    for (int i = 0; i < GetGDALDriverManager()->GetDriverCount() && !extension.empty(); ++i) {
-        GDALDriver* const driver = GetGDALDriverManager()->GetDriver(i);
-        const CPLStringList extensions(
-            CSLTokenizeString2(driver->GetMetadataItem(GDAL_DMD_EXTENSIONS), " ", 0));
-        if (driver->GetMetadataItem(GDAL_DCAP_VECTOR) != nullptr &&
-            driver->GetMetadataItem(GDAL_DCAP_CREATE) != nullptr &&
-            extensions.FindString(extension.c_str()) >= 0) {
-            return *driver;
-        }
-    }
-    throw UsageError("no vector driver is known for " + io::quoted(target) +
-                     ": use an extension such as .gpkg, or name the driver with --of");
-}
-
-[[noreturn]] void cannot_write(const std::string& target, const io::GdalMessages& messages) {
-    throw IoError("cannot write violations to " + io::quoted(target) + messages.suffix());
-}
-
-void add_fields(OGRLayer& layer, const std::string& target, const io::GdalMessages& messages) {
-    OGRFieldDefn surface("surface", OFTInteger);
-    OGRFieldDefn kind("kind", OFTString);
-    OGRFieldDefn face("face", OFTInteger64);
-    OGRFieldDefn other("other", OFTInteger64);
-    for (OGRFieldDefn* field : {&surface, &kind, &face, &other}) {
-        if (layer.CreateField(field) != OGRERR_NONE) {
-            cannot_write(target, messages);
-        }
-    }
-}
-
-bool add_feature(OGRLayer& layer, const CheckedSurface& surface, int number, const FaceViolation& violation) {
-    OGRFeature feature(layer.GetLayerDefn());
-    feature.SetField(0, number);
-    feature.SetField(1, key_of(violation.defect).c_str());
-    feature.SetField(2, static_cast<GIntBig>(surface.face_ids[violation.face]));
-    if (violation.other != FaceViolation::kNoFace) {
-        feature.SetField(3, static_cast<GIntBig>(surface.face_ids[violation.other]));
-    }
-    const OGRPoint point(violation.location.x, violation.location.y, violation.location.z);
-    return feature.SetGeometry(&point) == OGRERR_NONE && layer.CreateFeature(&feature) == OGRERR_NONE;
 }
 
 }  // namespace
@@ -171,37 +111,43 @@ JsonValue checked_json(std::span<const CheckedSurface> surfaces, const std::vect
     return json.set("violations", total).set("surfaces", list).set("outputs", JsonValue::array_of(outputs));
 }
 
+void check_violation_target(const std::string& target, const ViolationLayerOptions& options) {
+    static_cast<void>(io::find_tin_driver(target, options.driver));
+}
+
 void write_violations(std::span<const CheckedSurface> surfaces, const std::string& target,
                       const ViolationLayerOptions& options) {
-    io::register_drivers();
-    const io::GdalMessages messages;
-    GDALDriver& driver = find_driver(target, options.driver);
-    io::AtomicOutput output(target, options.overwrite);
-    DatasetPointer dataset(driver.Create(output.path().c_str(), 0, 0, 0, GDT_Unknown, nullptr));
-    if (!dataset) {
-        cannot_write(target, messages);
+    constexpr std::array<io::TinField, 4> kFields{
+        {{"surface", OFTInteger}, {"kind", OFTString}, {"face", OFTInteger64}, {"other", OFTInteger64}}};
+    const io::TinDriver driver = io::find_tin_driver(target, options.driver);
+    io::WriteTinOptions write_options;
+    if (driver.name.starts_with("GeoJSON")) {
+        write_options.layer_options = {"COORDINATE_PRECISION=9"};
     }
     const io::Crs crs = surfaces.empty() ? io::Crs() : surfaces.front().crs;
-    std::unique_ptr<OGRSpatialReference> system(crs.is_known() ? crs.gdal()->Clone() : nullptr);
-    OGRLayer* const layer = dataset->CreateLayer("violations", system.get(), wkbPoint25D, nullptr);
-    if (layer == nullptr) {
-        cannot_write(target, messages);
-    }
-    add_fields(*layer, target, messages);
-    const bool in_transaction = dataset->StartTransaction() == OGRERR_NONE;
+    io::AtomicOutput output(target, options.overwrite);
+    io::TinDataset dataset(driver, output.path(), target, crs, write_options);
+    io::TinLayer layer = dataset.add_layer("violations", wkbPoint25D, kFields, Tin{});
     int number = 0;
     for (const CheckedSurface& surface : surfaces) {
         ++number;
         for (const FaceViolation& violation : surface.report.violations) {
-            if (!add_feature(*layer, surface, number, violation)) {
-                cannot_write(target, messages);
+            layer.set(0, number);
+            layer.set(1, key_of(violation.defect));
+            layer.set(2, surface.face_ids[violation.face]);
+            if (violation.other == FaceViolation::kNoFace) {
+                layer.set_null(3);
+            } else {
+                layer.set(3, surface.face_ids[violation.other]);
             }
+            auto& point = layer.geometry<OGRPoint>();
+            point.setX(violation.location.x);
+            point.setY(violation.location.y);
+            point.setZ(violation.location.z);
+            layer.write();
         }
     }
-    if (in_transaction && dataset->CommitTransaction() != OGRERR_NONE) {
-        cannot_write(target, messages);
-    }
-    dataset.reset();
+    dataset.close();
     output.commit();
 }
 

@@ -38,6 +38,9 @@ struct ViolationLayerOptions {
     bool overwrite = false;
 };
 
+/// Throws UsageError when no vector driver fits the target.
+void check_violation_target(const std::string& target, const ViolationLayerOptions& options);
+
 /// Writes the listed violations as points, with the fields `surface` (number of the file, from 1), `kind`,
 /// `face` and `other` (feature ids). Throws UsageError, IoError.
 void write_violations(std::span<const CheckedSurface> surfaces, const std::string& target,

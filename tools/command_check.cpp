@@ -48,6 +48,10 @@ void CommandCheck::setup(const std::vector<std::string>& arguments) {
 Outcome CommandCheck::run() {
     Console console("check", talk);
     refuse_to_overwrite_sources(output.path, sources.sources);
+    const ViolationLayerOptions layer_options{output.driver, output.overwrite};
+    if (!output.path.empty()) {
+        check_violation_target(output.path, layer_options);
+    }
     std::vector<CheckedSurface> surfaces;
     std::size_t violations = 0;
     const double share = 1.0 / static_cast<double>(sources.sources.size());
@@ -59,7 +63,7 @@ Outcome CommandCheck::run() {
     console.progress().finish();
     std::vector<std::string> outputs;
     if (!output.path.empty()) {
-        write_violations(surfaces, output.path, {output.driver, output.overwrite});
+        write_violations(surfaces, output.path, layer_options);
         outputs.push_back(output.path);
     }
     std::string list;
