@@ -132,6 +132,43 @@ std::vector<std::size_t> keys_on_hull(std::span<const Key2> keys) {
     return indices;
 }
 
+bool do_interiors_meet(const std::array<Key2, 3>& a, const std::array<Key2, 3>& b) {
+    using boost::multiprecision::cpp_rational;
+    struct Point {
+        cpp_rational x;
+        cpp_rational y;
+    };
+    const auto point = [](Key2 key) { return Point{cpp_rational(big(key.x)), cpp_rational(big(key.y))}; };
+    const auto turn = [](const Point& p, const Point& q, const Point& r) {
+        return cpp_rational((q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x));
+    };
+    std::vector<Point> part{point(a[0]), point(a[1]), point(a[2])};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Point p = point(b[i]);
+        const Point q = point(b[(i + 1) % 3]);
+        std::vector<Point> rest;
+        for (std::size_t k = 0; k < part.size(); ++k) {
+            const Point& from = part[k];
+            const Point& to = part[(k + 1) % part.size()];
+            const cpp_rational h = turn(p, q, from);
+            const cpp_rational g = turn(p, q, to);
+            if (h >= 0) {
+                rest.push_back(from);
+            }
+            if (h.sign() * g.sign() < 0) {
+                const cpp_rational t = h / (h - g);
+                rest.push_back({from.x + t * (to.x - from.x), from.y + t * (to.y - from.y)});
+            }
+        }
+        part = rest;
+    }
+    cpp_rational area = 0;
+    for (std::size_t k = 2; k < part.size(); ++k) {
+        area += turn(part[0], part[k - 1], part[k]);
+    }
+    return area > 0;
+}
+
 std::vector<Triple> delaunay(std::span<const Key2> keys) {
     const bool small = is_small(keys);
     const auto is_inside = [&](Key2 a, Key2 b, Key2 c, Key2 d) {

@@ -32,6 +32,10 @@ std::vector<tinwright::Key2> convex_hull(std::vector<tinwright::Key2> keys);
 /// pair of keys as an edge of the hull, O(n^3).
 std::vector<std::size_t> keys_on_hull(std::span<const tinwright::Key2> keys);
 
+/// Whether the interiors of two counter-clockwise triangles meet: clips one with the other's sides in
+/// rational numbers and looks whether an area is left.
+bool do_interiors_meet(const std::array<tinwright::Key2, 3>& a, const std::array<tinwright::Key2, 3>& b);
+
 using Triple = std::array<std::uint32_t, 3>;
 
 /// The faces of the Delaunay triangulation by definition: every counter-clockwise triple whose perturbed

@@ -211,14 +211,15 @@ void FaceAudit::check_repeated() {
     struct Entry {
         FaceCorners corners;
         std::uint32_t i;
-        auto operator<=>(const Entry&) const = default;
     };
     std::vector<Entry> entries(faces_.size());
     tbb::parallel_for(std::uint32_t{0}, static_cast<std::uint32_t>(faces_.size()), [&](std::uint32_t i) {
         entries[i] = {faces_[i], i};
         std::sort(entries[i].corners.begin(), entries[i].corners.end());
     });
-    tbb::parallel_sort(entries.begin(), entries.end());
+    tbb::parallel_sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
+        return a.corners != b.corners ? a.corners < b.corners : a.i < b.i;
+    });
     std::vector<bool> is_repeated(faces_.size(), false);
     std::vector<FaceViolation> found;
     for (std::size_t e = 1, original = 0; e < entries.size(); ++e) {

@@ -148,7 +148,7 @@ class TinAudit {
             }
         }
         if (ghosts == 0) {
-            return {{0}, "there is no border"};
+            return {{0}, "there is no border"};  // nor a plane drawing: the mesh closes on itself
         }
         std::size_t met = 0;
         std::size_t lows = 0;  // vertices that precede both neighbours: as many as the border turns round
@@ -176,7 +176,9 @@ class TinAudit {
 
     void check_hull() {
         const BorderDefect defect = find_border_defect();
-        if (defect.text != nullptr) {
+        if (mesh_.slot_count() == 0) {
+            report(7, false, 0, kGhostVertex, [] { return "there is no face"; });
+        } else if (defect.text != nullptr) {
             report_face(7, defect.ghost, [&] { return std::string(defect.text); });
         }
     }
