@@ -107,10 +107,13 @@ class Builder {
     [[nodiscard]] bool is_inside(Index u, const Seen& w, const Seen& p, const Seen& q) const {
         // Putting the origin first instead of last is an odd permutation, undone by swapping p and q.
         const int fast = internal::incircle_local(w.at, q.at, p.at);
-        if (fast == 1 || fast == -1) {
-            return fast > 0;
+        if (fast == 0) {
+            return internal::incircle_tie(key_[u], key_[w.vertex], key_[p.vertex], key_[q.vertex]) > 0;
         }
-        return incircle_perturbed(key_[u], key_[w.vertex], key_[p.vertex], key_[q.vertex]) > 0;
+        if (fast == internal::kUnsure) {
+            return incircle_perturbed(key_[u], key_[w.vertex], key_[p.vertex], key_[q.vertex]) > 0;
+        }
+        return fast > 0;
     }
 
     // Two vertices: the hull goes there and back again.

@@ -43,25 +43,6 @@ bool is_written(double value) {
                          [](char c) { return c != '.'; }) <= 15;
 }
 
-void check_elevations(std::span<const Point3> samples) {
-    const std::size_t bad = tbb::parallel_reduce(
-        tbb::blocked_range<std::size_t>(0, samples.size(), kGrain), samples.size(),
-        [&](const tbb::blocked_range<std::size_t>& range, std::size_t first) {
-            for (std::size_t i = range.begin(); i != range.end(); ++i) {
-                if (!std::isfinite(samples[i].z)) {
-                    return std::min(first, i);
-                }
-            }
-            return first;
-        },
-        [](std::size_t a, std::size_t b) { return std::min(a, b); });
-    if (bad < samples.size()) {
-        throw InputError("the elevation of the sample at " + location_text(samples[bad]) +
-                             " is not a finite number; remove the sample or give its z",
-                         {bad});
-    }
-}
-
 // Samples that a lattice coarser than the data puts on one key must be one location up to rounding noise.
 void check_merged(const Point3& a, const Point3& b, double noise, const Lattice& lattice,
                   std::size_t sample_a, std::size_t sample_b) {
@@ -177,37 +158,19 @@ void for_each_index(std::size_t count, const Body& body) {
 void order_samples(std::span<const Point3> samples, SampleVertices& out) {
     const auto key_of = [&](std::size_t i) { return out.lattice.key({samples[i].x, samples[i].y}); };
     const Key2 corner = out.lattice.key({out.bounds.x_max, out.bounds.y_max});
-    const double largest = std::max(corner.x, corner.y);
-    const int dropped = curve_bits_dropped(largest);
     const std::size_t count = samples.size();
-    LargeVector<CurveItem> items(count);
+    const CurvePacking packing(std::max(corner.x, corner.y), count);
+    LargeVector<std::uint64_t> words(count);
     {
-        LargeVector<CurveItem> scratch(count);
-        for_each_index(count, [&](std::size_t i) {
-            items[i] = {curve_code(key_of(i), dropped), static_cast<std::uint32_t>(i)};
-        });
-        sort_curve_items(items, scratch, curve_code_bits(largest));
-    }
-    // Codes of wide keys are cut short: runs of equal ones are ordered by the keys themselves.
-    for (std::size_t first = 0; dropped > 0 && first < count;) {
-        std::size_t last = first + 1;
-        while (last < count && items[last].code == items[first].code) {
-            ++last;
-        }
-        std::sort(items.begin() + static_cast<std::ptrdiff_t>(first),
-                  items.begin() + static_cast<std::ptrdiff_t>(last),
-                  [&](const CurveItem& a, const CurveItem& b) {
-                      const Key2 p = key_of(a.index);
-                      const Key2 q = key_of(b.index);
-                      return p == q ? a.index < b.index : precedes_on_curve(p, q);
-                  });
-        first = last;
+        LargeVector<std::uint64_t> scratch(count);
+        for_each_index(count, [&](std::size_t i) { words[i] = packing.pack(key_of(i), i); });
+        sort_packed(words, scratch, packing, key_of);
     }
     out.keys.resize(count);
     out.z.resize(count);
     out.sample.resize(count);
     for_each_index(count, [&](std::size_t i) {
-        const std::uint32_t sample = items[i].index;
+        const std::uint32_t sample = packing.index(words[i]);
         out.keys[i] = key_of(sample);
         out.z[i] = samples[sample].z;
         out.sample[i] = sample;
@@ -237,7 +200,6 @@ SampleVertices make_sample_vertices(std::span<const Point3> samples, const Dupli
                          std::to_string(kMostSamples) + "; thin or tile them");
     }
     const FoundLattice found = find_lattice(samples);
-    check_elevations(samples);
 
     SampleVertices out;
     out.lattice = found.lattice;

@@ -30,27 +30,56 @@ bool is_decimal(double value, double power_of_ten) {
     return std::abs(scaled) < kStepLimit && Lattice::nearest_integer(scaled) / power_of_ten == value;
 }
 
+constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+
 struct Survey {
     Box bounds;
-    int decimals = 0;                                                  // beyond kMostDecimals: not decimal
-    std::size_t not_finite = std::numeric_limits<std::size_t>::max();  // first such sample
+    int decimals = 0;               // beyond kMostDecimals: not decimal
+    std::size_t first_bad = kNone;  // first sample with a number that is not finite
 
-    void add(double value) {
-        while (decimals <= kMostDecimals &&
-               !is_decimal(value, kPowersOfTen[static_cast<std::size_t>(decimals)])) {
-            ++decimals;
-        }
-    }
     static Survey merge(Survey a, const Survey& b) {
         if (!b.bounds.is_empty()) {
             a.bounds.add(b.bounds.x_min, b.bounds.y_min);
             a.bounds.add(b.bounds.x_max, b.bounds.y_max);
         }
         a.decimals = std::max(a.decimals, b.decimals);
-        a.not_finite = std::min(a.not_finite, b.not_finite);
+        a.first_bad = std::min(a.first_bad, b.first_bad);
         return a;
     }
 };
+
+bool is_finite(const Point3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
+
+// Raises `decimals` until both coordinates have no more of them.
+int raise_decimals(int decimals, const Point3& p) {
+    while (decimals <= kMostDecimals &&
+           !(is_decimal(p.x, kPowersOfTen[static_cast<std::size_t>(decimals)]) &&
+             is_decimal(p.y, kPowersOfTen[static_cast<std::size_t>(decimals)]))) {
+        ++decimals;
+    }
+    return decimals;
+}
+
+Survey survey_range(std::span<const Point3> samples, std::size_t begin, std::size_t end, Survey seen) {
+    Box bounds = seen.bounds;
+    int decimals = seen.decimals;
+    double power = kPowersOfTen[static_cast<std::size_t>(std::min(decimals, kMostDecimals))];
+    for (std::size_t i = begin; i != end; ++i) {
+        const Point3& p = samples[i];
+        if (!is_finite(p)) {
+            seen.first_bad = std::min(seen.first_bad, i);
+            continue;
+        }
+        bounds.add(p.x, p.y);
+        if (decimals <= kMostDecimals && !(is_decimal(p.x, power) && is_decimal(p.y, power))) {
+            decimals = raise_decimals(decimals, p);
+            power = kPowersOfTen[static_cast<std::size_t>(std::min(decimals, kMostDecimals))];
+        }
+    }
+    seen.bounds = bounds;
+    seen.decimals = decimals;
+    return seen;
+}
 
 constexpr int kLeastExponent = -960;  // quanta and their reciprocals stay well within the range of doubles
 
@@ -59,18 +88,8 @@ constexpr std::size_t kGrain = 1U << 14U;
 Survey survey(std::span<const Point3> samples) {
     return tbb::parallel_reduce(
         tbb::blocked_range<std::size_t>(0, samples.size(), kGrain), Survey{},
-        [&](const tbb::blocked_range<std::size_t>& range, Survey seen) {
-            for (std::size_t i = range.begin(); i != range.end(); ++i) {
-                const Point3& sample = samples[i];
-                if (!std::isfinite(sample.x) || !std::isfinite(sample.y)) {
-                    seen.not_finite = std::min(seen.not_finite, i);
-                    continue;
-                }
-                seen.bounds.add(sample.x, sample.y);
-                seen.add(sample.x);
-                seen.add(sample.y);
-            }
-            return seen;
+        [&](const tbb::blocked_range<std::size_t>& range, const Survey& seen) {
+            return survey_range(samples, range.begin(), range.end(), seen);
         },
         Survey::merge);
 }
@@ -131,8 +150,12 @@ double Lattice::quantum() const { return 1 / steps_per_unit_; }
 
 FoundLattice find_lattice(std::span<const Point3> samples) {
     const Survey seen = survey(samples);
-    if (seen.not_finite < samples.size()) {
-        throw InputError("a sample's x or y is not a finite number; remove it", {seen.not_finite});
+    if (seen.first_bad != kNone) {
+        const Point3& bad = samples[seen.first_bad];
+        throw InputError(
+            "the " + std::string(std::isfinite(bad.x) && std::isfinite(bad.y) ? "elevation" : "x or y") +
+                " of a sample is not a finite number; remove the sample or mend it",
+            {seen.first_bad});
     }
     const Box& bounds = seen.bounds;
     if (bounds.is_empty()) {

@@ -82,8 +82,9 @@ struct FoundLattice {
 /// power of two. Where neither holds them all in 2^45 steps and the data are not decimal, the finest power of
 /// two that spans them (and a 2^51st of the largest coordinate) is taken and `is_exact()` is false.
 ///
-/// `samples`: n of them, any order; the result does not depend on it. z is not looked at.
-/// Throws InputError naming the first sample with a coordinate that is not finite.
+/// `samples`: n of them, any order; the result does not depend on it.
+/// Throws InputError naming the first sample with an x, y or z that is not finite, and for decimal data
+/// whose extent needs more than 2^45 steps.
 /// Cost: O(n), parallel inside the caller's task arena. [DESIGN of keys: docs/robustness.md]
 FoundLattice find_lattice(std::span<const Point3> samples);
 
