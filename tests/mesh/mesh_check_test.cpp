@@ -19,10 +19,10 @@ namespace {
 using Face = TriangleMesh::Face;
 
 /// The report on a clean mesh of two faces after `breaking` has spoilt its records.
-MeshCheckReport report_on(const std::function<void(std::vector<Face>&)>& breaking) {
+MeshCheckReport report_on(const std::function<void(TriangleMesh::Faces&)>& breaking) {
     const TriangleMesh clean = mesh_of(4, {0, 1, 2, 2, 1, 3});
     REQUIRE(check_mesh(clean).is_clean());
-    std::vector<Face> faces;
+    TriangleMesh::Faces faces;
     for (std::uint32_t f = 0; f < clean.slot_count(); ++f) {
         faces.push_back(clean.face({f}));
     }
@@ -81,7 +81,7 @@ TEST_SUITE("mesh/mesh_check") {
 
     TEST_CASE("M7: two edges between the same vertices in one turn are found") {
         // Vertices 0 and 1 joined by two edges, with vertex 2 between these and vertex 3 beyond them.
-        std::vector<Face> faces(4);
+        TriangleMesh::Faces faces(4);
         faces[0].vertex = {{{0}, {1}, {2}}};
         faces[1].vertex = {{{1}, {0}, {2}}};
         faces[2].vertex = {{{1}, {0}, {3}}};
@@ -113,7 +113,7 @@ TEST_SUITE("mesh/mesh_check") {
     TEST_CASE("all violations are counted, no more than the limit are described") {
         Random random(1);
         const TriangleMesh clean = delaunay_tin(key_families()[2].make(random, 200)).mesh;
-        std::vector<Face> faces;
+        TriangleMesh::Faces faces;
         for (std::uint32_t f = 0; f < clean.slot_count(); ++f) {
             faces.push_back(clean.face({f}));
             faces.back().marks = 32;

@@ -30,11 +30,11 @@ inline tinwright::TriangleMesh mesh_of(std::size_t vertex_count,
 }
 
 /// A TIN of these keys with elevation zero and no mesh yet.
-inline tinwright::Tin tin_of(std::vector<tinwright::Key2> keys) {
+inline tinwright::Tin tin_of(std::span<const tinwright::Key2> keys) {
     tinwright::Tin tin;
     tin.z.assign(keys.size(), 0.0);
     tin.sample.assign(keys.size(), tinwright::Tin::kNoSample);
-    tin.keys = std::move(keys);
+    tin.keys.assign(keys.begin(), keys.end());
     return tin;
 }
 

@@ -152,10 +152,10 @@ FoundLattice find_lattice(std::span<const Point3> samples) {
     const Survey seen = survey(samples);
     if (seen.first_bad != kNone) {
         const Point3& bad = samples[seen.first_bad];
-        throw InputError(
-            "the " + std::string(std::isfinite(bad.x) && std::isfinite(bad.y) ? "elevation" : "x or y") +
-                " of a sample is not a finite number; remove the sample or mend it",
-            {seen.first_bad});
+        const bool is_elevation = std::isfinite(bad.x) && std::isfinite(bad.y);
+        throw InputError(std::string("a sample's ") + (is_elevation ? "elevation" : "x or y") +
+                             " is not a finite number; remove it",
+                         {seen.first_bad});
     }
     const Box& bounds = seen.bounds;
     if (bounds.is_empty()) {
