@@ -177,7 +177,7 @@ void AtomicOutput::prepare_local() {
     if (fs::exists(status) && !overwrite_) {
         throw IoError(io::quoted(target_) + " exists; use --overwrite to replace it");
     }
-    if (fs::exists(status) && ::access(destination.c_str(), W_OK) != 0) {
+    if (fs::exists(status) && ::faccessat(AT_FDCWD, destination.c_str(), W_OK, AT_EACCESS) != 0) {
         throw IoError("cannot replace " + io::quoted(target_) + ": " + reason(errno));
     }
     if (!fs::is_directory(folder, error)) {

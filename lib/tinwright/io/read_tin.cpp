@@ -112,6 +112,7 @@ void TinFileReader::read_faces() {
         }
     }
     if (CPLGetLastErrorType() >= CE_Failure) {
+        source_.refuse_filter(faces_);  // some drivers look at it only now
         throw IoError("cannot read " + source_.describe(faces_) + source_.suffix());
     }
     if (file_.face_ids.empty()) {

@@ -1,6 +1,8 @@
 #include "tinwright/io/tin_dataset.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <memory>
 
@@ -235,8 +237,32 @@ void TinDataset::close() {
     if (!is_good) {
         fail("closing it");
     }
+    require_whole_file();
     if (crs_.is_known() && writes_own_wkt(driver_, options_)) {
         write_side_car_crs();
+    }
+}
+
+// GDAL 3.6 does not look whether its text drivers' writes succeed: a full disk leaves a file that just ends.
+void TinDataset::require_whole_file() const {
+    const char* const end = driver_.last_words;
+    if (end == nullptr) {
+        return;
+    }
+    VSILFILE* const file = VSIFOpenL(path_.c_str(), "rb");
+    std::string tail(64, '\0');
+    if (file != nullptr) {
+        VSIFSeekL(file, 0, SEEK_END);
+        const vsi_l_offset size = VSIFTellL(file);
+        VSIFSeekL(file, size - std::min<vsi_l_offset>(size, tail.size()), SEEK_SET);
+        tail.resize(VSIFReadL(tail.data(), 1, tail.size(), file));
+        VSIFCloseL(file);
+    } else {
+        tail.clear();
+    }
+    std::erase_if(tail, [](unsigned char c) { return std::isspace(c) != 0; });
+    if (!tail.ends_with(end)) {
+        fail("its end is missing");
     }
 }
 

@@ -76,6 +76,7 @@ class TinDataset {
     [[noreturn]] void fail(const std::string& what) const;
 
   private:
+    void require_whole_file() const;
     void write_side_car_crs() const;
 
     const TinDriver& driver_;

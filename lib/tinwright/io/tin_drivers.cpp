@@ -24,17 +24,18 @@ struct KnownDriver {
     bool has_layers;
     MetadataPlace metadata;
     int significant_digits;
+    const char* last_words;
 };
 
 // Tested with GDAL 3.6: these keep z. Any other driver has to prove it on a probe file (write_tin.cpp).
 constexpr std::array<KnownDriver, 7> kKnownDrivers = {{
-    {"GPKG", " gpkg ", true, MetadataPlace::Layer, 0},
-    {"ESRI Shapefile", " shp shz ", false, MetadataPlace::Nowhere, 0},
-    {"FlatGeobuf", " fgb ", false, MetadataPlace::Nowhere, 0},
-    {"GML", " gml ", true, MetadataPlace::Description, 15},
-    {"SQLite", " sqlite db sqlite3 ", true, MetadataPlace::Table, 0},
-    {"CSV", " csv ", false, MetadataPlace::Nowhere, 0},
-    {"GeoJSON", " geojson json ", false, MetadataPlace::Member, 0},
+    {"GPKG", " gpkg ", true, MetadataPlace::Layer, 0, nullptr},
+    {"ESRI Shapefile", " shp shz ", false, MetadataPlace::Nowhere, 0, nullptr},
+    {"FlatGeobuf", " fgb ", false, MetadataPlace::Nowhere, 0, nullptr},
+    {"GML", " gml ", true, MetadataPlace::Description, 15, "FeatureCollection>"},
+    {"SQLite", " sqlite db sqlite3 ", true, MetadataPlace::Table, 0, nullptr},
+    {"CSV", " csv ", false, MetadataPlace::Nowhere, 0, nullptr},
+    {"GeoJSON", " geojson json ", false, MetadataPlace::Member, 0, "]}"},
 }};
 
 constexpr const char* kAlternatives = "use .gpkg, .shp, .fgb, .gml, .sqlite, .csv or .geojson";
@@ -184,6 +185,7 @@ TinDriver find_tin_driver(const std::string& target, const std::string& driver) 
         found.has_layers = known->has_layers;
         found.metadata = known->metadata;
         found.significant_digits = known->significant_digits;
+        found.last_words = known->last_words;
     }
     return found;
 }

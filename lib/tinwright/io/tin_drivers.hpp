@@ -27,7 +27,8 @@ struct TinDriver {
     std::string name;
     bool has_layers = false;  ///< faces, constrained edges and vertices go into one file
     MetadataPlace metadata = MetadataPlace::Nowhere;
-    int significant_digits = 0;  ///< of coordinates written as text; 0: all that there are
+    int significant_digits = 0;        ///< of coordinates written as text; 0: all that there are
+    const char* last_words = nullptr;  ///< how a whole text file ends, blanks left out; null: not looked at
 };
 
 /// The driver named in `driver`, else the one for the target's extension. Throws UsageError.

@@ -204,10 +204,16 @@ OGRLayer* TinSource::find_faces() {
     OGRLayer* const layer = choose_layer();
     if (layer != nullptr && source_.where &&
         layer->SetAttributeFilter(source_.where->c_str()) != OGRERR_NONE) {
-        throw UsageError(describe(*layer) + ": where " + io::quoted(*source_.where) + " is not understood" +
-                         suffix());
+        refuse_filter(*layer);
     }
     return layer;
+}
+
+void TinSource::refuse_filter(OGRLayer& layer) const {
+    if (source_.where) {
+        throw UsageError(describe(layer) + ": where " + io::quoted(*source_.where) + " is not understood" +
+                         suffix());
+    }
 }
 
 OGRLayer* TinSource::find_companion(OGRLayer& faces, const char* name) {

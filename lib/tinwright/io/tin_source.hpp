@@ -28,6 +28,8 @@ class TinSource {
     /// layer that neither metadata nor its type tell to be a TIN. Throws IoError when the layer that the
     /// source asks for is not there, UsageError for a filter that cannot be.
     [[nodiscard]] OGRLayer* find_faces();
+    /// Throws UsageError if the source has a `where`: for when reading fails.
+    void refuse_filter(OGRLayer& layer) const;
     /// Another layer of the same TIN, or null; also null when a filter takes a part of the faces only.
     [[nodiscard]] OGRLayer* find_companion(OGRLayer& faces, const char* name);
     [[nodiscard]] TinMetadata metadata(OGRLayer& faces);
