@@ -1,0 +1,328 @@
+#include "tinwright/io/write_grid.hpp"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <exception>
+#include <memory>
+#include <span>
+#include <utility>
+
+#include <cpl_conv.h>
+#include <cpl_string.h>
+#include <gdal_priv.h>
+#include <tbb/task_arena.h>
+#include <tbb/task_group.h>
+
+#include "tinwright/geometry/error.hpp"
+#include "tinwright/io/atomic_output.hpp"
+#include "tinwright/io/gdal_session.hpp"
+#include "tinwright/io/preview.hpp"
+#include "tinwright/io/raster_driver.hpp"
+#include "tinwright/io/raster_values.hpp"
+#include "tinwright/surface/scan_conversion.hpp"
+
+namespace tinwright::io {
+
+namespace {
+
+constexpr std::int64_t kBandBytes = std::int64_t{64} << 20U;
+constexpr double kMemoryDatasetBytes = 256.0 * 1024 * 1024;
+
+class Stopwatch {
+  public:
+    explicit Stopwatch(double& seconds) : seconds_(seconds) {}
+    ~Stopwatch() {
+        seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    }
+    Stopwatch(const Stopwatch&) = delete;
+    Stopwatch& operator=(const Stopwatch&) = delete;
+
+  private:
+    double& seconds_;
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+bool has_option(const std::vector<std::string>& options, const std::string& name) {
+    return std::any_of(options.begin(), options.end(), [&](const std::string& option) {
+        return option.size() > name.size() && option[name.size()] == '=' &&
+               EQUALN(option.c_str(), name.c_str(), name.size());
+    });
+}
+
+CPLStringList creation_options(const RasterDriver& driver, const std::vector<std::string>& asked) {
+    CPLStringList list;
+    for (const std::string& option : asked) {
+        list.AddString(option.c_str());
+    }
+    // Compressed files grow unforeseen: past 2 GB of values they get 64-bit offsets.
+    if ((driver.name() == "GTiff" || driver.name() == "COG") && !has_option(asked, "BIGTIFF")) {
+        list.SetNameValue("BIGTIFF", "IF_SAFER");
+    }
+    return list;
+}
+
+/// One raster being written: where to, with what, and GDAL's messages about it.
+class GridWriter {
+  public:
+    GridWriter(const Tin& tin, const Crs& crs, const GridGeometry& grid, const std::string& target,
+               const WriteGridOptions& options)
+        : tin_(tin),
+          crs_(crs),
+          grid_(grid),
+          target_(target),
+          options_(options),
+          driver_(find_raster_driver(target, options)),
+          values_(tin, driver_, options.nodata),
+          report_{driver_.name(), driver_.type_name(), values_.nodata(), 0, 0, 0, {}} {}
+
+    /// Writes everything to `path`.
+    WrittenGrid write(const std::string& path);
+
+  private:
+    [[noreturn]] void fail() const {
+        throw IoError("cannot write " + quoted(target_) + " as " + driver_.name() + messages_.suffix());
+    }
+    [[nodiscard]] double bytes() const {
+        return static_cast<double>(grid_.columns) * static_cast<double>(grid_.rows) *
+               GDALGetDataTypeSizeBytes(driver_.type);
+    }
+    [[nodiscard]] GDALDatasetUniquePtr create(GDALDriver* driver, const std::string& path,
+                                              char** options) const;
+    void describe(GDALDataset& dataset) const;
+    void close(GDALDatasetUniquePtr dataset) const;
+    void copy(const std::string& path);
+    void copy_from(GDALDataset& source, const std::string& path);
+
+    template <class Value>
+    void fill(GDALDataset& dataset, double progress_share);
+    void fill_any(GDALDataset& dataset, double progress_share) {
+        driver_.type == GDT_Float32 ? fill<float>(dataset, progress_share)
+                                    : fill<double>(dataset, progress_share);
+    }
+
+    const Tin& tin_;
+    const Crs& crs_;
+    const GridGeometry& grid_;
+    const std::string& target_;
+    const WriteGridOptions& options_;
+    GdalMessages messages_;
+    RasterDriver driver_;
+    RasterValues values_;
+    WrittenGrid report_;
+};
+
+GDALDatasetUniquePtr GridWriter::create(GDALDriver* driver, const std::string& path, char** options) const {
+    GDALDatasetUniquePtr dataset(driver->Create(path.c_str(), static_cast<int>(grid_.columns),
+                                                static_cast<int>(grid_.rows), 1, driver_.type, options));
+    if (dataset == nullptr) {
+        fail();
+    }
+    return dataset;
+}
+
+void GridWriter::describe(GDALDataset& dataset) const {
+    std::array<double, 6> transform{grid_.x_min, grid_.cell_width, 0, grid_.y_max, 0, -grid_.cell_height};
+    bool is_described = dataset.SetGeoTransform(transform.data()) == CE_None;
+    if (crs_.is_known()) {
+        is_described = dataset.SetSpatialRef(crs_.gdal()) == CE_None && is_described;
+    }
+    dataset.SetMetadataItem(GDALMD_AREA_OR_POINT, GDALMD_AOP_AREA);
+    for (const auto& [key, value] : options_.metadata) {
+        dataset.SetMetadataItem(key.c_str(), value.c_str());
+    }
+    GDALRasterBand& band = *dataset.GetRasterBand(1);
+    CPLErr declared = CE_None;
+    if (driver_.type == GDT_Int64) {
+        declared = band.SetNoDataValueAsInt64(static_cast<std::int64_t>(values_.nodata()));
+    } else if (driver_.type == GDT_UInt64) {
+        declared = band.SetNoDataValueAsUInt64(static_cast<std::uint64_t>(values_.nodata()));
+    } else {
+        declared = band.SetNoDataValue(values_.nodata());
+    }
+    if (!is_described || declared != CE_None) {
+        fail();
+    }
+}
+
+// Closing writes what is still held back, and tells of failures by messages alone.
+void GridWriter::close(GDALDatasetUniquePtr dataset) const {
+    const GdalMessages closing;
+    dataset.reset();
+    if (!closing.last_error().empty()) {
+        throw IoError("cannot finish writing " + quoted(target_) + closing.suffix());
+    }
+}
+
+template <class Value>
+void GridWriter::fill(GDALDataset& dataset, double progress_share) {
+    constexpr GDALDataType kBufferType = sizeof(Value) == sizeof(float) ? GDT_Float32 : GDT_Float64;
+    GDALRasterBand& raster = *dataset.GetRasterBand(1);
+    int block_columns = 0;
+    int block_rows = 0;
+    raster.GetBlockSize(&block_columns, &block_rows);
+    const auto row_bytes = grid_.columns * static_cast<std::int64_t>(sizeof(Value));
+    std::int64_t band_rows = std::clamp<std::int64_t>(kBandBytes / row_bytes, 1, grid_.rows);
+    if (band_rows > block_rows) {
+        band_rows -= band_rows % block_rows;  // whole blocks, written once
+    }
+
+    std::unique_ptr<ScanConverter> converter;
+    {
+        const Stopwatch watch(report_.interpolate_seconds);
+        converter = std::make_unique<ScanConverter>(tin_, grid_, band_rows);
+    }
+    const std::int64_t bands = converter->band_count();
+    std::array<std::vector<Value>, 2> buffer;
+    const auto rows_of = [&](std::int64_t band) {
+        const auto [first, end] = converter->band_rows(band);
+        return std::span(buffer[static_cast<std::size_t>(band % 2)])
+            .first(static_cast<std::size_t>((end - first) * grid_.columns));
+    };
+    const auto compute = [&](std::int64_t band) {
+        const Stopwatch watch(report_.interpolate_seconds);
+        buffer[static_cast<std::size_t>(band % 2)].resize(
+            static_cast<std::size_t>(band_rows * grid_.columns));
+        const std::span<Value> values = rows_of(band);
+        report_.cells_with_value += converter->fill(band, values, static_cast<Value>(values_.filler()));
+        if (values_.must_check()) {
+            values_.check(values, grid_, converter->band_rows(band).first);
+        }
+    };
+    const auto write = [&](std::int64_t band) {
+        const Stopwatch watch(report_.write_seconds);
+        const auto [first, end] = converter->band_rows(band);
+        const auto columns = static_cast<int>(grid_.columns);
+        const auto rows = static_cast<int>(end - first);
+        if (raster.RasterIO(GF_Write, 0, static_cast<int>(first), columns, rows, rows_of(band).data(),
+                            columns, rows, kBufferType, 0, 0, nullptr) != CE_None ||
+            raster.FlushCache(false) != CE_None) {
+            fail();
+        }
+        report_progress(options_.progress,
+                        progress_share * static_cast<double>(band + 1) / static_cast<double>(bands));
+    };
+    compute(0);
+    for (std::int64_t band = 0; band < bands; ++band) {
+        // The next band is computed while this one is written, if there is a thread for it.
+        tbb::task_group next;
+        if (band + 1 < bands) {
+            next.run([&] { compute(band + 1); });
+        }
+        try {
+            write(band);
+        } catch (...) {
+            next.cancel();
+            next.wait();
+            throw;
+        }
+        next.wait();
+    }
+}
+
+void GridWriter::copy_from(GDALDataset& source, const std::string& path) {
+    struct Watch {
+        const Progress& progress;
+        std::exception_ptr stopped;
+    } watch{options_.progress, nullptr};
+    const auto on_progress = [](double share, const char*, void* data) -> int {
+        auto& watched = *static_cast<Watch*>(data);
+        try {
+            report_progress(watched.progress, 0.5 + 0.5 * share);
+        } catch (...) {
+            watched.stopped = std::current_exception();
+            return FALSE;
+        }
+        return TRUE;
+    };
+    const Stopwatch stopwatch(report_.write_seconds);
+    CPLStringList list = creation_options(driver_, options_.creation_options);
+    GDALDatasetUniquePtr dataset(
+        driver_.driver->CreateCopy(path.c_str(), &source, FALSE, list.List(), on_progress, &watch));
+    if (watch.stopped) {
+        dataset.reset();
+        std::rethrow_exception(watch.stopped);
+    }
+    if (dataset == nullptr) {
+        fail();
+    }
+    close(std::move(dataset));
+}
+
+/// For drivers that only copy: a dataset in memory or, when large, a file beside the output comes first.
+void GridWriter::copy(const std::string& path) {
+    if (bytes() <= kMemoryDatasetBytes) {
+        GDALDatasetUniquePtr source = create(GetGDALDriverManager()->GetDriverByName("MEM"), "", nullptr);
+        describe(*source);
+        fill_any(*source, 0.5);
+        copy_from(*source, path);
+        return;
+    }
+    const std::string raw = path.starts_with("/vsi")
+                                ? std::string(CPLGenerateTempFilename("tinwright")) + ".tif"
+                                : path + ".uncompressed.tif";
+    require_free_space(raw, 2 * bytes());
+    struct Remove {
+        const std::string& path;
+        ~Remove() { VSIUnlink(path.c_str()); }
+    } const remove{raw};
+    CPLStringList list;
+    list.SetNameValue("BIGTIFF", "IF_SAFER");
+    GDALDatasetUniquePtr source = create(GetGDALDriverManager()->GetDriverByName("GTiff"), raw, list.List());
+    describe(*source);
+    fill_any(*source, 0.5);
+    copy_from(*source, path);
+}
+
+WrittenGrid GridWriter::write(const std::string& path) {
+    require_free_space(target_, bytes());
+    if (driver_.can_create) {
+        CPLStringList list = creation_options(driver_, options_.creation_options);
+        GDALDatasetUniquePtr dataset = create(driver_.driver, path, list.List());
+        describe(*dataset);
+        fill_any(*dataset, 1);
+        const Stopwatch watch(report_.write_seconds);
+        close(std::move(dataset));
+    } else {
+        copy(path);
+    }
+    return report_;
+}
+
+}  // namespace
+
+void check_grid_target(const std::string& target, const WriteGridOptions& options) {
+    find_raster_driver(target, options);
+    if (!options.preview.empty()) {
+        check_preview_target(options.preview);
+    }
+    for (const std::string& file : {target, options.preview}) {
+        if (!file.empty() && !file.starts_with("/vsi")) {
+            const AtomicOutput probe(file, options.overwrite);
+        }
+    }
+}
+
+WrittenGrid write_grid(const Tin& tin, const Crs& crs, const GridGeometry& grid, const std::string& target,
+                       const WriteGridOptions& options) {
+    check_grid_target(target, options);
+    AtomicOutput output(target, options.overwrite);
+    std::unique_ptr<AtomicOutput> preview;
+    if (!options.preview.empty()) {
+        preview = std::make_unique<AtomicOutput>(options.preview, options.overwrite);
+    }
+    WrittenGrid written;
+    tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
+    arena.execute([&] { written = GridWriter(tin, crs, grid, target, options).write(output.path()); });
+    if (preview) {
+        write_preview(output.path(), preview->path(), preview->target(), choose_z_factor(tin));
+    }
+    output.commit();
+    if (preview) {
+        preview->commit();
+    }
+    return written;
+}
+
+}  // namespace tinwright::io
