@@ -111,7 +111,7 @@ OpenedSource open_with_gdal(const Source& source, std::string path) {
     if (!opened.dataset) {
         const std::string file = "cannot open file " + quoted(source.path);
         if (!is_readable(opened.path)) {
-            throw IoError(file + ": no such file" + unknown_key_hint(source.path) + messages.suffix());
+            throw IoError(file + ": no such file" + unknown_key_hint(source.path));
         }
         throw IoError(file +
                       (wants_raster   ? ": no raster that GDAL knows"

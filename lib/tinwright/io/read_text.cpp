@@ -7,6 +7,7 @@
 
 #include <cpl_error.h>
 #include <cpl_vsi.h>
+#include <cpl_vsi_error.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -34,9 +35,11 @@ class TextReader {
         : request_(request), points_(points), slice_(SampleSlice::Kind::Text, request.options.skip_bad) {}
 
     RawSlice read() {
-        file_.reset(VSIFOpenL(request_.path.c_str(), "rb"));
+        file_.reset(VSIFOpenExL(request_.path.c_str(), "rb", TRUE));
         if (!file_) {
-            throw IoError("cannot open " + request_.file + messages_.suffix());
+            const std::string why = VSIGetLastErrorMsg();
+            throw IoError("cannot open " + request_.file +
+                          (why.empty() ? messages_.suffix() : "; GDAL says: " + why));
         }
         arena_.initialize(request_.options.threads > 0 ? request_.options.threads
                                                        : tbb::task_arena::automatic);
