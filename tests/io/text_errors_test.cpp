@@ -44,8 +44,8 @@ TEST_SUITE("io/text_errors") {
               file + ", line 2: 4 columns where the rows before have 3" + go_on);
         CHECK(input_error("x,y,z\n1,2,3,4\n") ==
               file + ", line 2: 4 columns where the rows before have 3" + go_on);
-        CHECK(input_error("x,y,z,d\n1,2,3,\"a\n") ==
-              file + ", line 2: a quoted column does not end on its line" + go_on);
+        CHECK(input_error("x,y,z,d,e\n1,2,3,a,5\n1,2,3,\"a,5\n") ==
+              file + ", line 3: a quoted column does not end on its line" + go_on);
         CHECK(input_error("1;2;3\n1,5;2;x\n") ==
               file + R"(, line 2: x (column 1) is no number: "1,5")" + go_on);
         CHECK(input_error("1 2 3\n\x1b[2J 5 6\n") ==

@@ -41,8 +41,10 @@ class TextReader {
             throw IoError("cannot open " + request_.file +
                           (why.empty() ? messages_.suffix() : "; GDAL says: " + why));
         }
-        arena_.initialize(request_.options.threads > 0 ? request_.options.threads
-                                                       : tbb::task_arena::automatic);
+        // Never more than there are processors: oneTBB prints a warning of its own then.
+        const int processors = tbb::this_task_arena::max_concurrency();
+        const int asked = request_.options.threads;
+        arena_.initialize(asked > 0 ? std::min(asked, processors) : processors);
         const auto threads = static_cast<std::size_t>(arena_.max_concurrency());
         batch_bytes_ = threads == 1 ? piece_bytes : 4 * threads * piece_bytes;
         total_bytes_ = known_size();
