@@ -51,9 +51,9 @@ class Builder {
         }
         if (count == 3) {
             const auto a = static_cast<Index>(first);
-            const int turn = orient2d(key_[a], key_[a + 1], key_[a + 2]);
-            if (turn != 0) {
-                return make_triangle(a, turn > 0 ? a + 1 : a + 2, turn > 0 ? a + 2 : a + 1);
+            const int side = turn(a, a + 1, a + 2);
+            if (side != 0) {
+                return make_triangle(a, side > 0 ? a + 1 : a + 2, side > 0 ? a + 2 : a + 1);
             }
         }
         const CurveSplit split = find_curve_split(keys_.subspan(first, count));
@@ -91,7 +91,10 @@ class Builder {
         set_twin(g, h);
     }
 
-    [[nodiscard]] int turn(Index a, Index b, Index c) const { return orient2d(key_[a], key_[b], key_[c]); }
+    [[nodiscard]] int turn(Index a, Index b, Index c) const {
+        const int fast = internal::orient2d_double(key_[a], key_[b], key_[c]);
+        return fast != internal::kUnsure ? fast : internal::orient2d_int128(key_[a], key_[b], key_[c]);
+    }
 
     // A vertex seen from the base's left end.
     struct Seen {
@@ -160,17 +163,17 @@ class Builder {
         Index u_enters = u_is_alone ? 0 : ghost_before(u_leaves);
         Index w_leaves = w_is_alone ? 0 : hull_face_[w];
         Index w_enters = w_is_alone ? 0 : ghost_before(w_leaves);
-        for (bool moved = true; moved;) {
-            moved = false;
+        // Down along both hulls until nothing of either lies below the line through u and w.
+        for (bool w_moved = true; w_moved;) {
             while (!u_is_alone && turn(u, w, vertex(u_enters, 1)) < 0) {
                 u = vertex(u_enters, 1);
                 u_leaves = std::exchange(u_enters, ghost_before(u_enters));
-                moved = true;
             }
+            w_moved = false;
             while (!w_is_alone && turn(u, w, vertex(w_leaves, 0)) < 0) {
                 w = vertex(w_leaves, 0);
                 w_enters = std::exchange(w_leaves, ghost_after(w_leaves));
-                moved = true;
+                w_moved = true;
             }
         }
 

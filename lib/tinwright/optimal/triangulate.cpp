@@ -1,11 +1,16 @@
 #include "tinwright/optimal/triangulate.hpp"
 
+#include <algorithm>
 #include <chrono>
-#include <cmath>
+#include <iomanip>
 #include <limits>
+#include <locale>
+#include <sstream>
 #include <string>
 #include <utility>
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
 #include <tbb/task_arena.h>
 
 #include "tinwright/delaunay/delaunay.hpp"
@@ -35,43 +40,73 @@ void check_options(const TriangulateOptions& options) {
     }
 }
 
-// A lattice that had to move samples is good only if it moved each by a small part of the way to its
-// nearest neighbour, which in a Delaunay triangulation is at the other end of an edge.
-void check_detail(const Tin& tin) {
-    constexpr double kClosest = 16;
-    double closest = std::numeric_limits<double>::infinity();
-    VertexId at{};
-    for (std::size_t f = 0; f < tin.mesh.slot_count(); ++f) {
-        const FaceId face{static_cast<std::uint32_t>(f)};
-        // The first edge of a ghost face is a hull edge, so each edge is seen, most of them twice.
-        const unsigned edges = tin.mesh.is_ghost(face) ? 1 : 3;
-        for (unsigned i = 0; i < edges; ++i) {
-            const Key2 a = tin.key(tin.mesh.vertex(face, i));
-            const Key2 b = tin.key(tin.mesh.vertex(face, next_corner(i)));
-            const double distance = std::hypot(a.x - b.x, a.y - b.y);
-            if (distance < closest) {
-                closest = distance;
-                at = tin.mesh.vertex(face, i);
-            }
-        }
-    }
-    if (closest < kClosest) {
-        const Point3 p = tin.position(at);
-        throw InputError(
-            "the extent of the samples is too large for their detail: two of them near (" +
-                std::to_string(p.x) + ", " + std::to_string(p.y) +
-                ") are closer than 16 steps of the lattice of 2^45 = 35184372088832 steps across the extent; "
-                "remove outlying samples or round the coordinates",
-            {tin.sample[at.value]});
-    }
+std::string text_of(const Tin& tin, VertexId v) {
+    const Point3 p = tin.position(v);
+    std::ostringstream text;
+    text.imbue(std::locale::classic());
+    text << std::setprecision(15) << '(' << p.x << ", " << p.y << ')';
+    return text.str();
 }
 
-std::size_t count_ghosts(const TriangleMesh& mesh) {
-    std::size_t count = 0;
-    for (std::size_t f = 0; f < mesh.slot_count(); ++f) {
-        count += mesh.is_ghost({static_cast<std::uint32_t>(f)}) ? 1 : 0;
+struct HullAndDetail {
+    std::size_t hull_vertices = 0;
+    double closest = std::numeric_limits<double>::infinity();  // squared distance in keys
+    FaceId at;
+
+    static HullAndDetail merge(const HullAndDetail& a, const HullAndDetail& b) {
+        const bool is_b = b.closest < a.closest || (b.closest == a.closest && b.at < a.at);
+        const HullAndDetail& least = is_b ? b : a;
+        return {a.hull_vertices + b.hull_vertices, least.closest, least.at};
     }
-    return count;
+};
+
+// Counts ghost faces, as many as the hull has vertices, and finds the two closest vertices, which are the
+// ends of an edge.
+HullAndDetail examine(const Tin& tin) {
+    constexpr std::size_t kGrain = 1U << 14U;
+    const TriangleMesh& mesh = tin.mesh;
+    return tbb::parallel_reduce(
+        tbb::blocked_range<std::uint32_t>(0, static_cast<std::uint32_t>(mesh.slot_count()), kGrain),
+        HullAndDetail{},
+        [&](const tbb::blocked_range<std::uint32_t>& range, HullAndDetail seen) {
+            for (std::uint32_t f = range.begin(); f != range.end(); ++f) {
+                if (mesh.is_ghost({f})) {
+                    ++seen.hull_vertices;
+                    continue;
+                }
+                if (tin.lattice.is_exact()) {
+                    continue;
+                }
+                const Key2 a = tin.key(mesh.vertex({f}, 0));
+                const Key2 b = tin.key(mesh.vertex({f}, 1));
+                const Key2 c = tin.key(mesh.vertex({f}, 2));
+                const auto square = [](Key2 p, Key2 q) {
+                    return (p.x - q.x) * (p.x - q.x) + (p.y - q.y) * (p.y - q.y);
+                };
+                const double least = std::min(std::min(square(a, b), square(b, c)), square(c, a));
+                if (least < seen.closest) {
+                    seen.closest = least;
+                    seen.at = {f};
+                }
+            }
+            return seen;
+        },
+        HullAndDetail::merge);
+}
+
+// A lattice that had to move samples is good only if it moved each by a small part of the way to its
+// nearest neighbour.
+void check_detail(const Tin& tin, const HullAndDetail& seen) {
+    constexpr double kClosest = 16;
+    if (tin.lattice.is_exact() || seen.closest >= kClosest * kClosest) {
+        return;
+    }
+    const VertexId at = tin.mesh.vertex(seen.at, 0);
+    throw InputError(
+        "the extent of the samples is too large for their detail: two of them at " + text_of(tin, at) +
+            " or next to it are closer than 16 of the 2^45 = 35184372088832 lattice steps across the "
+            "extent; remove outlying samples or round the coordinates",
+        {tin.sample[at.value]});
 }
 
 Triangulated triangulate_here(std::span<const Point3> samples, const TriangulateOptions& options) {
@@ -97,18 +132,15 @@ Triangulated triangulate_here(std::span<const Point3> samples, const Triangulate
     }
     report_progress(options.progress, 0.3);
     tin.mesh = make_delaunay(tin.keys);
-    report.hull_vertices = count_ghosts(tin.mesh);
-    if (report.hull_vertices == tin.mesh.slot_count()) {
-        const Point3 a = tin.position({0});
-        const Point3 b = tin.position({static_cast<std::uint32_t>(tin.keys.size() - 1)});
+    const HullAndDetail seen = examine(tin);
+    report.hull_vertices = seen.hull_vertices;
+    if (seen.hull_vertices == tin.mesh.slot_count()) {
         throw InputError("all " + std::to_string(tin.keys.size()) +
-                         " sample locations lie on one line, for example (" + std::to_string(a.x) + ", " +
-                         std::to_string(a.y) + ") and (" + std::to_string(b.x) + ", " + std::to_string(b.y) +
-                         "); a surface needs one off the line");
+                         " sample locations lie on one line, for example " + text_of(tin, {0}) + " and " +
+                         text_of(tin, {static_cast<std::uint32_t>(tin.keys.size() - 1)}) +
+                         "; a surface needs one off the line");
     }
-    if (!tin.lattice.is_exact()) {
-        check_detail(tin);
-    }
+    check_detail(tin, seen);
     report.triangulate_seconds = seconds_since(start);
     report_progress(options.progress, 0.9);
 
@@ -118,7 +150,8 @@ Triangulated triangulate_here(std::span<const Point3> samples, const Triangulate
         report.domain.void_faces = drop_long_faces(tin, *options.max_edge);
     }
     constrain_border(tin);
-    report.faces = tin.mesh.count_terrain();
+    report.faces =
+        tin.mesh.slot_count() - report.hull_vertices - report.domain.trimmed_faces - report.domain.void_faces;
     if (report.faces == 0) {
         throw InputError(
             "no face is left: all have an edge longer than --max-edge allows; give a longer one");
