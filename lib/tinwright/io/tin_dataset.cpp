@@ -5,6 +5,7 @@
 #include <cctype>
 #include <charconv>
 #include <memory>
+#include <utility>
 
 #include <cpl_conv.h>
 #include <cpl_string.h>
@@ -139,15 +140,20 @@ void TinLayer::write() {
 }
 
 TinDataset::TinDataset(const TinDriver& driver, const std::string& path, const std::string& target,
-                       const Crs& crs, const WriteTinOptions& options)
-    : driver_(driver), path_(path), target_(target), crs_(crs), options_(options) {
+                       const Crs& crs, TinMetadata metadata, const WriteTinOptions& options)
+    : driver_(driver),
+      path_(path),
+      target_(target),
+      crs_(crs),
+      metadata_(std::move(metadata)),
+      options_(options) {
     if (const char* const date = CPLGetThreadLocalConfigOption(kDateOption, nullptr)) {
         former_date_ = date;
     }
     CPLSetThreadLocalConfigOption(kDateOption, kPinnedDate);
     CPLErrorReset();
     dataset_ = driver.gdal->Create(path.c_str(), 0, 0, 0, GDT_Unknown,
-                                   as_list(dataset_options(driver, options)).List());
+                                   as_list(dataset_options(driver, metadata_, options)).List());
     if (dataset_ == nullptr) {
         CPLSetThreadLocalConfigOption(kDateOption, former_date_ ? former_date_->c_str() : nullptr);
         fail("driver " + driver.name);
@@ -173,7 +179,7 @@ TinLayer TinDataset::add_layer(const std::string& name, OGRwkbGeometryType type,
     if (system == nullptr && driver_.name == "GPKG") {
         system = &undefined_cartesian_system();
     }
-    CPLStringList list = as_list(layer_options(driver_, name, tin, crs_, options_));
+    CPLStringList list = as_list(layer_options(driver_, name, tin, crs_, metadata_, options_));
     // The driver keeps a reference; it does not change the system, but its signature may.
     OGRLayer* const layer =
         dataset_->CreateLayer(name.c_str(), own_wkt ? nullptr : const_cast<OGRSpatialReference*>(system),
@@ -182,7 +188,7 @@ TinLayer TinDataset::add_layer(const std::string& name, OGRwkbGeometryType type,
         fail("layer " + quoted(name));
     }
     if (driver_.metadata == MetadataPlace::Layer) {
-        for (const auto& [key, value] : options_.metadata) {
+        for (const auto& [key, value] : metadata_) {
             layer->SetMetadataItem(key.c_str(), value.c_str());
         }
     }
@@ -198,12 +204,12 @@ TinLayer TinDataset::add_layer(const std::string& name, OGRwkbGeometryType type,
 }
 
 void TinDataset::add_metadata_table() {
-    if (driver_.metadata != MetadataPlace::Table || options_.metadata.empty()) {
+    if (driver_.metadata != MetadataPlace::Table || metadata_.empty()) {
         return;
     }
     constexpr std::array<TinField, 2> fields = {{{"key", OFTString}, {"value", OFTString}}};
     TinLayer table = add_layer("tinwright_metadata", wkbNone, fields, Tin{});
-    for (const auto& [key, value] : options_.metadata) {
+    for (const auto& [key, value] : metadata_) {
         table.set(0, key);
         table.set(1, value);
         table.write();

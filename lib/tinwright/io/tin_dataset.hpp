@@ -60,7 +60,7 @@ class TinDataset {
   public:
     /// Creates `path`; messages name `target`. Throws IoError.
     TinDataset(const TinDriver& driver, const std::string& path, const std::string& target, const Crs& crs,
-               const WriteTinOptions& options);
+               TinMetadata metadata, const WriteTinOptions& options);
     /// Closes, without a word, what was not closed.
     ~TinDataset();
     TinDataset(const TinDataset&) = delete;
@@ -83,6 +83,7 @@ class TinDataset {
     std::string path_;
     std::string target_;
     const Crs& crs_;
+    TinMetadata metadata_;
     const WriteTinOptions& options_;
     GdalMessages messages_;
     std::optional<std::string> former_date_;

@@ -129,7 +129,7 @@ void append_json_string(std::string& json, std::string_view text) {
     json += '"';
 }
 
-void add_geojson_options(std::vector<std::string>& list, const Tin& tin, const Crs& crs,
+void add_geojson_options(std::vector<std::string>& list, const Tin& tin, const Crs& crs, TinMetadata metadata,
                          const WriteTinOptions& options) {
     const std::vector<std::string>& given = options.layer_options;
     if (!has_option(given, "COORDINATE_PRECISION") && !has_option(given, "SIGNIFICANT_FIGURES")) {
@@ -140,7 +140,6 @@ void add_geojson_options(std::vector<std::string>& list, const Tin& tin, const C
                                      : std::string("SIGNIFICANT_FIGURES=17"));
     }
     if (!has_option(given, "NATIVE_DATA")) {
-        TinMetadata metadata = options.metadata;
         // A GeoJSON without a crs member means longitude and latitude, and that member holds only codes.
         if (!crs.is_known()) {
             metadata.emplace_back("TINWRIGHT_CRS", "none");
@@ -190,24 +189,26 @@ TinDriver find_tin_driver(const std::string& target, const std::string& driver) 
     return found;
 }
 
-std::vector<std::string> dataset_options(const TinDriver& driver, const WriteTinOptions& options) {
+std::vector<std::string> dataset_options(const TinDriver& driver, const TinMetadata& metadata,
+                                         const WriteTinOptions& options) {
     std::vector<std::string> list;
-    if (driver.metadata == MetadataPlace::Description && !options.metadata.empty()) {
-        list.push_back("DESCRIPTION=" + json_of(options.metadata));
+    if (driver.metadata == MetadataPlace::Description && !metadata.empty()) {
+        list.push_back("DESCRIPTION=" + json_of(metadata));
     }
     list.insert(list.end(), options.creation_options.begin(), options.creation_options.end());
     return list;
 }
 
 std::vector<std::string> layer_options(const TinDriver& driver, const std::string& layer, const Tin& tin,
-                                       const Crs& crs, const WriteTinOptions& options) {
+                                       const Crs& crs, const TinMetadata& metadata,
+                                       const WriteTinOptions& options) {
     std::vector<std::string> list;
     if (driver.name == "ESRI Shapefile") {
         list.emplace_back("DBF_DATE_LAST_UPDATE=2000-01-01");  // else the day of writing
     } else if (driver.name == "GPKG" && layer == "vertices") {
         list.emplace_back("SPATIAL_INDEX=NO");  // takes four fifths of the time and serves few
     } else if (driver.name == "GeoJSON") {
-        add_geojson_options(list, tin, crs, options);
+        add_geojson_options(list, tin, crs, metadata, options);
     }
     list.insert(list.end(), options.layer_options.begin(), options.layer_options.end());
     return list;

@@ -35,11 +35,13 @@ struct TinDriver {
 TinDriver find_tin_driver(const std::string& target, const std::string& driver);
 
 /// Creation options of the dataset: what pins the bytes and carries metadata, then the user's.
-std::vector<std::string> dataset_options(const TinDriver& driver, const WriteTinOptions& options);
+std::vector<std::string> dataset_options(const TinDriver& driver, const TinMetadata& metadata,
+                                         const WriteTinOptions& options);
 
 /// Creation options of one layer; `tin` and `crs` decide the digits and the extras of text formats.
 std::vector<std::string> layer_options(const TinDriver& driver, const std::string& layer, const Tin& tin,
-                                       const Crs& crs, const WriteTinOptions& options);
+                                       const Crs& crs, const TinMetadata& metadata,
+                                       const WriteTinOptions& options);
 
 /// Whether geometries are written as a text field WKT of our own: CSV, unless its GEOMETRY option is given.
 bool writes_own_wkt(const TinDriver& driver, const WriteTinOptions& options);

@@ -19,7 +19,8 @@ struct VertexOrigins {
     std::vector<std::int64_t> feature;  ///< one a vertex, -1: not kept; empty: not kept
 };
 
-/// What a TIN file says about itself; order is kept. Keys are fixed in docs/formats.md.
+/// What a TIN file says about itself. Keys are fixed in docs/formats.md; TINWRIGHT_VERTICES and
+/// TINWRIGHT_FACES are added by the writer.
 using TinMetadata = std::vector<std::pair<std::string, std::string>>;
 
 struct WriteTinOptions {
