@@ -51,6 +51,7 @@ Outcome CommandCheck::run() {
     const ViolationLayerOptions layer_options{output.driver, output.overwrite};
     if (!output.path.empty()) {
         check_violation_target(output.path, layer_options);
+        check_output_place(output.path, output.overwrite);
     }
     std::vector<CheckedSurface> surfaces;
     std::size_t violations = 0;

@@ -92,6 +92,8 @@ Outcome CommandGrid::run() {
     refuse_to_overwrite_sources(raster.preview, sources.sources);
     io::WriteGridOptions options = write_options();
     io::check_grid_target(output.path, options);
+    check_output_place(output.path, output.overwrite);
+    check_output_place(raster.preview, output.overwrite);
     io::Crs like_crs;
     std::optional<GridGeometry> like;
     if (!raster.like.empty()) {
@@ -126,7 +128,7 @@ Outcome CommandGrid::run() {
         report.outputs.push_back(raster.preview);
     }
     report.output_driver = written.driver;
-    console.say(report_text(report, surface, talk.verbose));
+    console.say(report_text(report, surface, {talk.verbose, talk.verbose}));
     if (talk.json) {
         print_result(make_json(report, surface).text());
     }

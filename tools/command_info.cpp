@@ -48,7 +48,7 @@ Outcome CommandInfo::run() {
         add_quality_json(json, surface.tin, quality);
         print_result(json.text());
     } else {
-        print_result(report_text(report, surface, true) + content_text(surface) +
+        print_result(report_text(report, surface, {true, talk.verbose}) + content_text(surface) +
                      quality_text(surface.tin, quality));
     }
     return Outcome::Done;

@@ -69,6 +69,7 @@ Outcome CommandTin::run() {
     refuse_to_overwrite_sources(output.path, sources.sources);
     io::WriteTinOptions options = write_options();
     io::check_tin_target(output.path, options);
+    check_output_place(output.path, output.overwrite);
 
     const SurfaceRequest request{sources, crs, triangulation, keep_ids, 0.7};
     Surface surface = triangulate_sources(request, console);
@@ -89,7 +90,7 @@ Outcome CommandTin::run() {
     report.outputs = {output.path};
     report.output_driver = written.driver;
     report.write_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    console.say(report_text(report, surface, talk.verbose));
+    console.say(report_text(report, surface, {talk.verbose, talk.verbose}));
     if (talk.json) {
         print_result(make_json(report, surface).text());
     }

@@ -209,7 +209,7 @@ JsonValue make_json(const JobReport& report, const Surface& surface) {
     return json.set("peak_memory_bytes", peak_memory_bytes());
 }
 
-std::string report_text(const JobReport& report, const Surface& surface, bool is_verbose) {
+std::string report_text(const JobReport& report, const Surface& surface, const ReportDetail& detail) {
     std::string text = "tinwright " + report.command + ": " + input_line(surface) + "\n";
     const auto add = [&text](const std::string& label, const std::string& value) {
         text += "  " + label + std::string(12 - label.size(), ' ') + value + "\n";
@@ -222,7 +222,7 @@ std::string report_text(const JobReport& report, const Surface& surface, bool is
                        (surface.tin.lattice.is_exact() ? "" : " (coordinates rounded to it)"));
     if (surface.report && surface.report->duplicates.equal + surface.report->duplicates.conflicting > 0) {
         add("duplicates", duplicates_line(report, surface.report->duplicates));
-        text += is_verbose ? conflict_lines(surface.report->duplicates) : "";
+        text += detail.conflicts ? conflict_lines(surface.report->duplicates) : "";
     }
     add("TIN", tin_line(report, surface));
     if (report.raster) {
@@ -232,7 +232,7 @@ std::string report_text(const JobReport& report, const Surface& surface, bool is
         const std::string type = report.raster ? ", " + report.raster->written.data_type : std::string();
         add("wrote", report.outputs[i] + (i == 0 ? " (" + report.output_driver + type + ")" : ""));
     }
-    if (is_verbose) {
+    if (detail.times) {
         add("seconds", times_line(report, surface));
         add("memory", fixed(static_cast<double>(peak_memory_bytes()) / 1048576.0, 0) + " MiB at the peak");
     }

@@ -35,8 +35,14 @@ struct JobReport {
 /// The report's keys for `surface` and what was made of it.
 JsonValue make_json(const JobReport& report, const Surface& surface);
 
+/// What only those who ask are told.
+struct ReportDetail {
+    bool conflicts = false;  ///< the first conflicting duplicates, one by one
+    bool times = false;      ///< seconds and memory
+};
+
 /// The report for people, as lines: what was read, what came of it, where it went.
-std::string report_text(const JobReport& report, const Surface& surface, bool is_verbose);
+std::string report_text(const JobReport& report, const Surface& surface, const ReportDetail& detail);
 
 /// Code, name, unit and WKT; null when unknown.
 JsonValue crs_json(const io::Crs& crs);

@@ -4,6 +4,7 @@
 #include <system_error>
 
 #include "tinwright/geometry/error.hpp"
+#include "tinwright/io/atomic_output.hpp"
 #include "tinwright/io/gdal_session.hpp"
 
 namespace tinwright::tools {
@@ -26,6 +27,12 @@ void OutputOptions::finish(bool is_required) const {
 }
 
 bool OutputOptions::is_stdout() const { return path.starts_with("/vsistdout") || path == "/dev/stdout"; }
+
+void check_output_place(const std::string& output, bool overwrite) {
+    if (!output.empty()) {
+        const io::AtomicOutput trial(output, overwrite);
+    }
+}
 
 void refuse_to_overwrite_sources(const std::string& output, std::span<const io::Source> sources) {
     if (output.empty()) {

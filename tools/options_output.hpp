@@ -28,6 +28,10 @@ struct OutputOptions {
     [[nodiscard]] bool is_stdout() const;
 };
 
+/// Throws IoError when the output exists and may not be replaced, or when its folder cannot be written: found
+/// before any work is done. Leaves nothing behind.
+void check_output_place(const std::string& output, bool overwrite);
+
 /// Throws UsageError when `output` is one of the files that are read, by name or as the same file on disk.
 void refuse_to_overwrite_sources(const std::string& output, std::span<const io::Source> sources);
 /// Throws UsageError when a creation option is not KEY=VALUE.

@@ -73,7 +73,7 @@ std::string see_help(const CLI::App& parser) { return "; see \"" + parser.get_na
                 if (option->get_type_name().empty()) {
                     throw UsageError(name + " takes no value");
                 }
-                if (option->count() > 0) {
+                if (!text.ends_with(" missing")) {
                     throw UsageError(name + " is given more than once");
                 }
                 throw UsageError(name + " needs " + option->get_type_name() + see_help(parser));

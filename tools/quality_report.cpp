@@ -69,9 +69,9 @@ std::string histogram_lines(const Histogram& histogram, const char* unit) {
         char line[96];
         const std::string range =
             number_text(histogram.bounds[i]) + " to " + number_text(histogram.bounds[i + 1]);
-        std::snprintf(line, sizeof line, "    %16s%s %10zu ", range.c_str(), unit, histogram.counts[i]);
+        std::snprintf(line, sizeof line, "    %16s%s %10zu", range.c_str(), unit, histogram.counts[i]);
         const std::size_t bar = (histogram.counts[i] * kBar + most - 1) / most;
-        lines += line + std::string(bar, '#') + "\n";
+        lines += line + (bar == 0 ? std::string() : " " + std::string(bar, '#')) + "\n";
     }
     return lines;
 }

@@ -1,0 +1,190 @@
+#include <doctest/doctest.h>
+
+#include "tinwright/geometry/error.hpp"
+
+#include "command_check.hpp"
+#include "command_grid.hpp"
+#include "command_info.hpp"
+#include "command_tin.hpp"
+
+namespace {
+
+using namespace tinwright;
+using namespace tinwright::tools;
+
+/// The message of the UsageError that a command line gives, or "fine".
+template <class Made>
+std::string complaint(const std::vector<std::string>& arguments) {
+    Made command;
+    try {
+        command.setup(arguments);
+    } catch (const UsageError& error) {
+        return error.what();
+    }
+    return "fine";
+}
+
+}  // namespace
+
+TEST_SUITE("tools/setup") {
+    TEST_CASE("tin knows its defaults") {
+        CommandTin tin;
+        tin.setup({"a.csv", "-o", "b.gpkg"});
+        REQUIRE(tin.sources.sources.size() == 1);
+        CHECK(tin.sources.sources[0].path == "a.csv");
+        CHECK(tin.output.path == "b.gpkg");
+        CHECK(tin.triangulation.domain.kind == DomainRule::Kind::Convex);
+        CHECK(tin.triangulation.duplicates.policy == DuplicatePolicy::Error);
+        CHECK(tin.triangulation.duplicates.tolerance == 0);
+        CHECK(tin.triangulation.threads == 0);
+        CHECK(tin.geometry == io::WriteTinOptions::Geometry::Polygon);
+        CHECK_FALSE(tin.output.overwrite);
+        CHECK_FALSE(tin.keep_ids);
+    }
+
+    TEST_CASE("grid trims the domain unless told otherwise") {
+        CommandGrid grid;
+        grid.setup({"a.csv", "-o", "b.tif"});
+        CHECK(grid.triangulation.domain.kind == DomainRule::Kind::Trimmed);
+        CHECK_FALSE(grid.raster.nodata.has_value());
+        CHECK_FALSE(grid.raster.request.extent.has_value());
+    }
+
+    TEST_CASE("options and sources come in any order") {
+        for (const std::vector<std::string>& arguments :
+             {std::vector<std::string>{"a.csv", "b.csv", "-o", "d.tif", "-tr", "2", "-te", "0", "1", "2",
+                                       "3"},
+              {"-tr", "2", "a.csv", "-te", "0", "1", "2", "3", "b.csv", "-o", "d.tif"},
+              {"-o", "d.tif", "-te", "0", "1", "2", "3", "-tr", "2", "a.csv", "b.csv"},
+              {"--output=d.tif", "a.csv", "--extent=0", "1", "2", "3", "b.csv", "--resolution=2"}}) {
+            CAPTURE(arguments.front());
+            CommandGrid grid;
+            grid.setup(arguments);
+            REQUIRE(grid.sources.sources.size() == 2);
+            CHECK(grid.sources.sources[1].path == "b.csv");
+            CHECK(grid.output.path == "d.tif");
+            CHECK(grid.raster.request.resolution == Point2{2, 2});
+            CHECK(grid.raster.request.extent == Box{0, 1, 2, 3});
+        }
+    }
+
+    TEST_CASE("every list option takes exactly one value each time") {
+        CommandTin tin;
+        tin.setup({"--co", "A=1", "a.csv", "--lco", "B=2", "b.csv", "--co", "C=3", "--oo", "D=4", "c.csv",
+                   "-o", "o.gpkg"});
+        CHECK(tin.sources.texts == std::vector<std::string>{"a.csv", "b.csv", "c.csv"});
+        CHECK(tin.output.creation_options == std::vector<std::string>{"A=1", "C=3"});
+        CHECK(tin.layer_options == std::vector<std::string>{"B=2"});
+        CHECK(tin.sources.sources[2].open_options == std::vector<std::string>{"D=4"});
+    }
+
+    TEST_CASE("numbers may be negative") {
+        CommandGrid grid;
+        grid.setup({"a.csv", "-o", "b.tif", "--extent", "-10", "-20.5", "-.5", "6e1", "--nodata", "-9999",
+                    "-tr", ".5", "2"});
+        CHECK(grid.raster.request.extent == Box{-10, -20.5, -0.5, 60});
+        CHECK(grid.raster.nodata == -9999.0);
+        CHECK(grid.raster.request.resolution == Point2{0.5, 2});
+    }
+
+    TEST_CASE("what follows two dashes is a source") {
+        CommandGrid grid;
+        grid.setup({"-o", "b.tif", "--", "-tap", "--like"});
+        CHECK(grid.sources.texts == std::vector<std::string>{"-tap", "--like"});
+        CHECK_FALSE(grid.raster.tap);
+    }
+
+    TEST_CASE("domains, policies and tolerances are read and written back canonically") {
+        CommandTin tin;
+        tin.setup({"a.csv", "-o", "b.gpkg", "--duplicate-tolerance", "0.010", "--max-edge", "8e1", "--domain",
+                   "concave:50.0", "--duplicates", "mean", "-j", "3", "-v"});
+        CHECK(tin.triangulation.domain.kind == DomainRule::Kind::Concave);
+        CHECK(tin.triangulation.domain.length == 50);
+        CHECK(tin.triangulation.threads == 3);
+        CHECK(tin.triangulation.canonical() ==
+              "--criterion delaunay --domain concave:50 --max-edge 80 --duplicates mean "
+              "--duplicate-tolerance 0.01");
+    }
+
+    TEST_CASE("info counts conflicts instead of failing on them") {
+        CommandInfo info;
+        info.setup({"a.csv"});
+        CHECK(info.triangulation.duplicates.policy == DuplicatePolicy::Mean);
+    }
+
+    TEST_CASE("wrong command lines are refused with one line that says what to do") {
+        CHECK(complaint<CommandTin>({}) == "no source is given: name a file with points, such as survey.csv");
+        CHECK(complaint<CommandTin>({"a.csv"}) == "no output is given: name it with -o FILE");
+        CHECK(complaint<CommandTin>({"a.csv", "-o"}) == "--output needs FILE; see \"tinwright tin --help\"");
+        CHECK(complaint<CommandTin>({"a.csv", "-o", "b", "-o", "c"}) == "--output is given more than once");
+        CHECK(complaint<CommandTin>({"a.csv", "--foo", "-o", "b"}) ==
+              "unknown option \"--foo\"; see \"tinwright tin --help\"");
+        CHECK(complaint<CommandTin>({"a.csv", "--f\too", "-o", "b"}) ==
+              "unknown option \"--f\\too\"; see \"tinwright tin --help\"");
+        CHECK(complaint<CommandTin>({"a.csv", "-o", "b", "--domain", "round"}) ==
+              "--domain takes convex, trimmed or concave:LENGTH, not \"round\"");
+        CHECK(complaint<CommandTin>({"a.csv", "-o", "b", "--domain", "concave:-1"}) ==
+              "--domain concave:LENGTH needs a number above zero, not \"-1\"");
+        CHECK(complaint<CommandTin>({"a.csv", "-o", "b", "--criterion", "slope"}) ==
+              "--criterion takes delaunay, not \"slope\"");
+        CHECK(complaint<CommandTin>({"a.csv", "-o", "b", "--duplicates", "any"}) ==
+              "--duplicates takes error, first, last, min, max, mean or median, not \"any\"");
+        CHECK(complaint<CommandTin>({"a.csv", "-o", "b", "--duplicate-tolerance", "-1"}) ==
+              "--duplicate-tolerance needs a number from 0 up, not \"-1\"");
+        CHECK(complaint<CommandTin>({"a.csv", "-o", "b", "--max-edge", "0"}) ==
+              "--max-edge needs a number above zero, not \"0\"");
+        CHECK(complaint<CommandTin>({"a.csv", "-o", "b", "-j", "-1"}) ==
+              "--threads needs a whole number from 0 up, not \"-1\"");
+        CHECK(complaint<CommandTin>({"a.csv", "-o", "b", "--geometry", "mesh"}) ==
+              "--geometry takes polygon, tin, edges or vertices, not \"mesh\"");
+        CHECK(complaint<CommandTin>({"a.csv", "-o", "b", "--lco", "FID"}) ==
+              "--lco needs KEY=VALUE, not \"FID\"");
+        CHECK(complaint<CommandTin>({"a.csv", "-o", "b", "--oo", "FID"}) ==
+              "--oo needs KEY=VALUE, not \"FID\"");
+        CHECK(complaint<CommandTin>({"a.csv", "-o", "b", "--tap"}) ==
+              "unknown option \"--tap\"; see \"tinwright tin --help\"");
+        CHECK(complaint<CommandTin>({"a.csv", "-o", "b", "-q", "-v"}) ==
+              "--quiet and --verbose exclude each other");
+        CHECK(complaint<CommandTin>({"a.csv", "-o", "b", "--progress", "--no-progress"}) ==
+              "--progress and --no-progress exclude each other");
+    }
+
+    TEST_CASE("contradictions about the raster are refused") {
+        const auto grid = [](std::vector<std::string> more) {
+            more.insert(more.begin(), {"a.csv", "-o", "b.tif"});
+            return complaint<CommandGrid>(more);
+        };
+        CHECK(grid({"--extent", "0", "0", "1"}) ==
+              "--extent needs X0 Y0 X1 Y1; see \"tinwright grid --help\"");
+        CHECK(grid({"--extent", "0", "0", "1", "x"}) == "--extent needs a number, not \"x\"");
+        CHECK(grid({"--extent", "5", "0", "1", "1"}) ==
+              "--extent takes XMIN YMIN XMAX YMAX with XMIN below XMAX and YMIN below YMAX, not 5 0 1 1");
+        CHECK(grid({"--size", "0", "10"}) == "--size needs a whole number from 1 up, not \"0\"");
+        CHECK(grid({"--resolution", "-1"}) == "--resolution needs a number above zero, not \"-1\"");
+        CHECK(grid({"--resolution", "1", "0"}) == "--resolution needs a number above zero, not \"0\"");
+        CHECK(grid({"--nodata", "none"}) == "--nodata needs a number, not \"none\"");
+        CHECK(grid({"--tap"}) == "--tap needs --resolution: edges are put at multiples of it");
+        CHECK(grid({"--like", "c.tif", "-tr", "1"}) ==
+              "--like brings its own geometry: --extent, --resolution, --size and --tap cannot be added");
+        CHECK(grid({"--method", "nearest"}) == "--method takes linear, not \"nearest\"");
+        CHECK(grid({"--preview", "b.tif"}) == "--preview and -o name the same file \"b.tif\"");
+        CHECK(grid({"--nodata", "nan"}) == "fine");
+    }
+
+    TEST_CASE("standard output has one user") {
+        CHECK(complaint<CommandTin>({"a.csv", "-o", "/vsistdout/", "--json"}) ==
+              "--json and the output both want standard output: write the output to a file");
+        CHECK(complaint<CommandCheck>({"a.gpkg", "-o", "/vsistdout/x.csv", "--json"}) ==
+              "--json and the output both want standard output: write the output to a file");
+        CHECK(complaint<CommandTin>({"a.csv", "-o", "/vsistdout/"}) == "fine");
+    }
+
+    TEST_CASE("a source is never the output, by whatever name") {
+        const std::vector<io::Source> sources{io::parse_source("a.csv")};
+        CHECK_THROWS_WITH_AS(
+            refuse_to_overwrite_sources("a.csv", sources),
+            "the output \"a.csv\" is also read: choose another name, a source is never overwritten",
+            UsageError);
+        CHECK_NOTHROW(refuse_to_overwrite_sources("b.csv", sources));
+    }
+}
