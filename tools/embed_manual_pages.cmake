@@ -6,6 +6,11 @@ foreach(page IN LISTS PAGES)
   file(READ "${FOLDER}/${page}.md" text)
   # The title block is for pandoc alone.
   string(REGEX REPLACE "^(%[^\n]*\n)+\n*" "" text "${text}")
+  # Marks that a terminal does not show: headings, emphasis, escapes, definitions.
+  string(REGEX REPLACE "(^|\n)#+ " "\\1" text "${text}")
+  string(REGEX REPLACE "\n:   " "\n    " text "${text}")
+  string(REPLACE "*" "" text "${text}")
+  string(REPLACE "\\-" "-" text "${text}")
   string(APPEND entries "    ManualPage{\"${page}\", R\"page(${text})page\"},\n")
 endforeach()
 file(

@@ -9,7 +9,7 @@ namespace tinwright::tools {
 /// A page of docs/man as it was when the program was built; the definitions are made by CMake.
 struct ManualPage {
     std::string_view name;  ///< "tinwright-grid"
-    std::string_view text;  ///< Markdown, which reads well as it is
+    std::string_view text;  ///< plain text
 };
 
 std::span<const ManualPage> all_manual_pages();
