@@ -11,36 +11,18 @@
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
-#include "tinwright/geometry/curve.hpp"
 #include "tinwright/mesh/mesh_check.hpp"
 #include "tinwright/mesh/tin_check.hpp"
 
 #include "support/cases.hpp"
 #include "support/oracles.hpp"
 #include "support/point_sets.hpp"
+#include "support/tins.hpp"
 
 using namespace tinwright;
 using namespace tinwright_tests;
 
 namespace {
-
-std::vector<Key2> in_curve_order(std::vector<Key2> keys) {
-    keys = without_repetitions(std::move(keys));
-    std::vector<Key2> sorted;
-    for (const std::uint32_t i : sort_along_curve(keys)) {
-        sorted.push_back(keys[i]);
-    }
-    return sorted;
-}
-
-Tin make_tin(const std::vector<Key2>& keys) {
-    Tin tin;
-    tin.keys.assign(keys.begin(), keys.end());
-    tin.z.assign(tin.keys.size(), 0.0);
-    tin.sample.assign(tin.keys.size(), Tin::kNoSample);
-    tin.mesh = make_delaunay(tin.keys);
-    return tin;
-}
 
 bool are_collinear(std::span<const Key2> keys) {
     return std::all_of(keys.begin(), keys.end(),
@@ -56,20 +38,6 @@ std::vector<std::array<Key2, 3>> faces_of(const Tin& tin) {
         }
     }
     return faces;
-}
-
-std::vector<oracle::Triple> triples_of(const TriangleMesh& mesh) {
-    std::vector<oracle::Triple> triples;
-    for (std::uint32_t f = 0; f < mesh.slot_count(); ++f) {
-        if (mesh.is_terrain({f})) {
-            const auto& v = mesh.face({f}).vertex;
-            oracle::Triple triple{v[0].value, v[1].value, v[2].value};
-            std::rotate(triple.begin(), std::min_element(triple.begin(), triple.end()), triple.end());
-            triples.push_back(triple);
-        }
-    }
-    std::sort(triples.begin(), triples.end());
-    return triples;
 }
 
 std::string named(char kind, int invariant, const std::string& text) {
@@ -118,7 +86,7 @@ TEST_SUITE("delaunay/delaunay") {
                 if (keys.size() < 2) {
                     continue;
                 }
-                const Tin tin = make_tin(keys);
+                const Tin tin = delaunay_tin(keys);
                 REQUIRE(tin.mesh.slot_count() == 2 * keys.size() - 2);
                 REQUIRE(first_violation(tin) == "");
             }
@@ -136,7 +104,7 @@ TEST_SUITE("delaunay/delaunay") {
                 if (keys.size() < 2) {
                     continue;
                 }
-                REQUIRE(triples_of(make_delaunay(keys)) == oracle::delaunay(keys));
+                REQUIRE(terrain_of(make_delaunay(keys)) == oracle::delaunay(keys));
             }
         }
     }
@@ -154,8 +122,8 @@ TEST_SUITE("delaunay/delaunay") {
             if (keys.size() < 2) {
                 continue;
             }
-            const Tin tin = make_tin(keys);
-            REQUIRE(triples_of(tin.mesh) == oracle::delaunay(keys));
+            const Tin tin = delaunay_tin(keys);
+            REQUIRE(terrain_of(tin.mesh) == oracle::delaunay(keys));
             REQUIRE(first_violation(tin) == "");
         }
     }
@@ -175,14 +143,14 @@ TEST_SUITE("delaunay/delaunay") {
             if (keys.size() < 2) {
                 continue;
             }
-            const Tin tin = make_tin(keys);
-            REQUIRE(triples_of(tin.mesh) == oracle::delaunay(keys));
+            const Tin tin = delaunay_tin(keys);
+            REQUIRE(terrain_of(tin.mesh) == oracle::delaunay(keys));
             REQUIRE(first_violation(tin) == "");
         }
     }
 
     TEST_CASE("a grid's diagonals are all parallel") {
-        const Tin tin = make_tin(in_curve_order(grid_keys(13, 9)));
+        const Tin tin = delaunay_tin(grid_keys(13, 9));
         std::size_t rising = 0;
         std::size_t falling = 0;
         for (std::uint32_t f = 0; f < tin.mesh.slot_count(); ++f) {
@@ -205,7 +173,7 @@ TEST_SUITE("delaunay/delaunay") {
             for (int i = 0; i < count; ++i) {
                 keys.push_back({7.0 * i, 3.0 * i});
             }
-            const Tin tin = make_tin(in_curve_order(keys));
+            const Tin tin = delaunay_tin(keys);
             CHECK(tin.mesh.slot_count() == 2 * tin.keys.size() - 2);
             CHECK(tin.mesh.count_terrain() == 0);
             CHECK(check_mesh(tin.mesh).is_clean());
@@ -220,7 +188,7 @@ TEST_SUITE("delaunay/delaunay") {
             if (are_collinear(keys)) {
                 continue;
             }
-            const Tin tin = make_tin(keys);
+            const Tin tin = delaunay_tin(keys);
             REQUIRE(first_violation(tin) == "");
             REQUIRE(check_tin(tin).is_clean());
             const std::vector<Key2> hull = oracle::convex_hull(keys);
