@@ -198,6 +198,10 @@ void read_features(const VectorPlan& plan, const SliceRequest& request, std::vec
         }
     }
     if (!messages.last_error().empty()) {
+        if (done == 0 && request.source.where) {  // some drivers look at the filter only now
+            throw InputError(plan.where + ": where=" + quoted(*request.source.where) + " cannot be used" +
+                             messages.suffix());
+        }
         throw IoError("cannot read " + plan.where + messages.suffix());
     }
 }
