@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <string>
 
@@ -115,6 +116,40 @@ TEST_SUITE("io/read_tin") {
             CHECK((terrain_of(back) == terrain_of(tin)) == form.is_exact);
             CHECK(terrain_of(back).size() == terrain_of(tin).size());
         }
+    }
+
+    TEST_CASE("decimals close to a rounder number are not rounded by GeoJSON") {
+        for (int decimals = 1; decimals <= 9; ++decimals) {
+            CAPTURE(decimals);
+            const double one = std::pow(10.0, decimals);
+            Tin tin;
+            tin.lattice = Lattice::decimal(decimals, {0, 0});
+            tin.keys = {{one + 1, one - 1}, {3 * one + 3, one / 2}, {2 * one - 1, 4 * one + 4}};
+            tin.z = {1 - 1 / one, 1 + 1 / one, (10000 * one + 9) / one};
+            tin.sample = {0, 1, 2};
+            const std::array<VertexId, 3> corners = {VertexId{0}, VertexId{1}, VertexId{2}};
+            tin.mesh = make_mesh(3, corners);
+            const TemporaryFolder folder;
+            write_tin(tin, Crs(), folder.file("t.geojson"), {});
+            CHECK(terrain_of(make_tin(read_tin_file(source_of(folder.file("t.geojson"))))) ==
+                  terrain_of(tin));
+        }
+    }
+
+    TEST_CASE("a format that is a folder is written, read back and not overwritten") {
+        const Tin tin = example_tin(4, 40);
+        const TemporaryFolder folder;
+        const Crs crs = Crs::parse("EPSG:3067");
+        const WrittenTin written = write_tin(tin, crs, folder.file("t.gdb"), {});
+        CHECK(written.warnings == std::vector<std::string>{"driver \"OpenFileGDB\" rounds coordinates"});
+        CHECK(folder.names().size() == 1);
+        CHECK(is_tin(source_of(folder.file("t.gdb"))));
+        CHECK(make_tin(read_tin_file(source_of(folder.file("t.gdb")))).mesh.count_terrain() ==
+              tin.mesh.count_terrain());
+        WriteTinOptions options;
+        options.overwrite = true;
+        CHECK(message_of<IoError>([&] { write_tin(tin, crs, folder.file("t.gdb"), options); }) ==
+              "cannot write \"" + folder.file("t.gdb") + "\": it is a folder; name a file");
     }
 
     TEST_CASE("formats with layers keep vertices without faces, vertex numbers, origins and Steiner marks") {

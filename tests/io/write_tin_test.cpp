@@ -292,6 +292,30 @@ TEST_SUITE("io/write_tin") {
         CHECK_NOTHROW(check_tin_target("t.jml", some_options()));  // not in the table: proved by the probe
     }
 
+    TEST_CASE("vertices can be written as columns of a text file") {
+        WriteTinOptions options = some_options(Geometry::Vertices);
+        options.layer_options = {"GEOMETRY=AS_XYZ"};
+        const TemporaryFolder folder;
+        const Tin tin = example_tin(2, 20);
+        write_tin(tin, Crs(), folder.file("t.csv"), options);
+        CHECK(read_bytes(folder.file("t.csv")).starts_with("X,Y,Z,id,steiner,source,feature\n"));
+        CHECK(message_of<UsageError>([&] {
+                  WriteTinOptions faces = some_options();
+                  faces.layer_options = options.layer_options;
+                  check_tin_target("t.csv", faces);
+              }).starts_with("driver \"CSV\""));
+    }
+
+    TEST_CASE("a spatial database keeps faces but no TIN geometry") {
+        WriteTinOptions options = some_options();
+        options.creation_options = {"SPATIALITE=YES"};
+        CHECK_NOTHROW(check_tin_target("t.sqlite", options));
+        options.geometry = Geometry::Tin;
+        CHECK(message_of<UsageError>([&] {
+                  check_tin_target("t.sqlite", options);
+              }).starts_with("driver \"SQLite\" cannot write such a TIN: "));
+    }
+
     TEST_CASE("what a format cannot hold is a warning") {
         const TemporaryFolder folder;
         const Tin binary = example_tin(2, 20, true);

@@ -133,11 +133,11 @@ void add_geojson_options(std::vector<std::string>& list, const Tin& tin, const C
                          const WriteTinOptions& options) {
     const std::vector<std::string>& given = options.layer_options;
     if (!has_option(given, "COORDINATE_PRECISION") && !has_option(given, "SIGNIFICANT_FIGURES")) {
-        // The driver cuts runs of zeros and nines off long fractions; up to nine decimals come out as they
-        // are.
-        const int decimals = largest(tin, 9, decimals_of);
-        list.push_back(decimals <= 9 ? "COORDINATE_PRECISION=" + std::to_string(decimals)
-                                     : std::string("SIGNIFICANT_FIGURES=17"));
+        // GDAL cuts a last digit off that follows five zeros or nines, which up to five decimals cannot.
+        constexpr int safe_decimals = 5;
+        const int decimals = largest(tin, safe_decimals, decimals_of);
+        list.push_back(decimals <= safe_decimals ? "COORDINATE_PRECISION=" + std::to_string(decimals)
+                                                 : std::string("SIGNIFICANT_FIGURES=17"));
     }
     if (!has_option(given, "NATIVE_DATA")) {
         // A GeoJSON without a crs member means longitude and latitude, and that member holds only codes.
