@@ -27,7 +27,6 @@ namespace tinwright::io {
 
 namespace {
 
-constexpr std::int64_t kBandBytes = std::int64_t{64} << 20U;
 constexpr double kMemoryDatasetBytes = 256.0 * 1024 * 1024;
 
 class Stopwatch {
@@ -95,6 +94,7 @@ class GridWriter {
     void copy(const std::string& path);
     void copy_from(GDALDataset& source, const std::string& path);
 
+    [[nodiscard]] std::int64_t choose_band_rows(GDALRasterBand& raster, std::int64_t value_bytes) const;
     template <class Value>
     void fill(GDALDataset& dataset, double progress_share);
     void fill_any(GDALDataset& dataset, double progress_share) {
@@ -155,19 +155,28 @@ void GridWriter::close(GDALDatasetUniquePtr dataset) const {
     }
 }
 
+/// Rows of whole blocks if at all possible: each is then written once, whatever GDAL's cache does.
+std::int64_t GridWriter::choose_band_rows(GDALRasterBand& raster, std::int64_t value_bytes) const {
+    int block_columns = 0;
+    int block_rows = 0;
+    raster.GetBlockSize(&block_columns, &block_rows);
+    const std::int64_t row_bytes = grid_.columns * value_bytes;
+    const std::int64_t rows = std::max<std::int64_t>(options_.band_bytes / row_bytes, 1);
+    if (rows >= block_rows) {
+        return std::min(grid_.rows, rows - rows % block_rows);
+    }
+    return block_rows * row_bytes <= 4 * options_.band_bytes ? block_rows : std::min(rows, grid_.rows);
+}
+
 template <class Value>
 void GridWriter::fill(GDALDataset& dataset, double progress_share) {
     constexpr GDALDataType kBufferType = sizeof(Value) == sizeof(float) ? GDT_Float32 : GDT_Float64;
     GDALRasterBand& raster = *dataset.GetRasterBand(1);
+    const std::int64_t band_rows = choose_band_rows(raster, static_cast<std::int64_t>(sizeof(Value)));
     int block_columns = 0;
     int block_rows = 0;
     raster.GetBlockSize(&block_columns, &block_rows);
-    const auto row_bytes = grid_.columns * static_cast<std::int64_t>(sizeof(Value));
-    std::int64_t band_rows = std::clamp<std::int64_t>(kBandBytes / row_bytes, 1, grid_.rows);
-    if (band_rows > block_rows) {
-        band_rows -= band_rows % block_rows;  // whole blocks, written once
-    }
-
+    const bool is_whole_blocks = band_rows % block_rows == 0;
     std::unique_ptr<ScanConverter> converter;
     {
         const Stopwatch watch(report_.interpolate_seconds);
@@ -197,7 +206,7 @@ void GridWriter::fill(GDALDataset& dataset, double progress_share) {
         const auto rows = static_cast<int>(end - first);
         if (raster.RasterIO(GF_Write, 0, static_cast<int>(first), columns, rows, rows_of(band).data(),
                             columns, rows, kBufferType, 0, 0, nullptr) != CE_None ||
-            raster.FlushCache(false) != CE_None) {
+            (is_whole_blocks && raster.FlushCache(false) != CE_None)) {
             fail();
         }
         report_progress(options_.progress,

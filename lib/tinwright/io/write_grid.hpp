@@ -15,15 +15,18 @@
 namespace tinwright::io {
 
 struct WriteGridOptions {
-    std::string driver;     ///< GDAL's short name; empty: from the file's extension
-    std::string data_type;  ///< GDAL's name (Float32, Int16, ...); empty: Float32, or what the driver needs
-    std::optional<double> nodata;  ///< default: -9999, or a value outside the data for integer types
-    std::vector<std::string> creation_options;
+    std::string driver = {};  ///< GDAL's short name; empty: from the file's extension
+    std::string data_type =
+        {};  ///< GDAL's name (Float32, Int16, ...); empty: Float32, or what the driver needs
+    std::optional<double> nodata =
+        std::nullopt;  ///< default: -9999, or a value outside the data for integer types
+    std::vector<std::string> creation_options = {};
     bool overwrite = false;
-    std::string preview;  ///< PNG hillshade to write beside it; empty: none
-    std::vector<std::pair<std::string, std::string>> metadata;
-    int threads = 1;  ///< 0: all processors; the bytes do not depend on it
-    Progress progress;
+    std::string preview = {};  ///< PNG hillshade to write beside it; empty: none
+    std::vector<std::pair<std::string, std::string>> metadata = {};
+    int threads = 1;                             ///< 0: all processors; the bytes do not depend on it
+    std::int64_t band_bytes = 64 * 1024 * 1024;  ///< memory of one band of rows; two are in use at a time
+    Progress progress = {};
 };
 
 struct WrittenGrid {
@@ -44,7 +47,8 @@ void check_grid_target(const std::string& target, const WriteGridOptions& option
 
 /// Interpolates the TIN linearly at the cell centres and writes the raster by bands of rows, under a
 /// temporary name. Throws UsageError, IoError (not enough space, driver failed), InputError (a value does not
-/// fit the data type, nodata collides with the data), Cancelled. Memory: a few bands of at most 64 MiB.
+/// fit the data type, nodata collides with the data), Cancelled. Memory: two bands of rows, plus a copy of
+/// the raster in memory (up to 256 MiB; beyond, a temporary file) for drivers that only copy.
 WrittenGrid write_grid(const Tin& tin, const Crs& crs, const GridGeometry& grid, const std::string& target,
                        const WriteGridOptions& options);
 
