@@ -76,6 +76,30 @@ TEST_SUITE("geometry/curve") {
         }
     }
 
+    TEST_CASE("large sets are sorted, whatever part of the keys fits beside the index in a word") {
+        for (const KeyFamily& family : key_families()) {
+            CAPTURE(family.name);
+            Random random(31);
+            std::vector<Key2> keys = family.make(random, 150000);
+            keys.insert(keys.end(), keys.begin(),
+                        keys.begin() + static_cast<std::ptrdiff_t>(keys.size() / 4));
+            const std::vector<std::uint32_t> order = sort_along_curve(keys);
+            REQUIRE(order.size() == keys.size());
+            std::vector<bool> is_met(keys.size(), false);
+            std::size_t misplaced = 0;
+            for (std::size_t i = 0; i < order.size(); ++i) {
+                is_met[order[i]] = true;
+                if (i > 0) {
+                    const Key2 a = keys[order[i - 1]];
+                    const Key2 b = keys[order[i]];
+                    misplaced += precedes_on_curve(a, b) || (a == b && order[i - 1] < order[i]) ? 0 : 1;
+                }
+            }
+            CHECK(misplaced == 0);
+            CHECK(std::count(is_met.begin(), is_met.end(), false) == 0);
+        }
+    }
+
     TEST_CASE("no key, one key and many equal keys are sorted") {
         CHECK(sort_along_curve({}).empty());
         const std::vector<Key2> one{{5, 7}};
