@@ -16,6 +16,22 @@ struct SurfaceCorner {
     double z = 0;
 };
 
+/// How a face's elevation runs along a row.
+struct PlaneSection {
+    double x = 0;         ///< of the face's first corner
+    double gradient = 0;  ///< of z along x
+    double lowest = 0;
+    double highest = 0;
+
+    /// `row_value`: FacePlane::row_value of the row.
+    [[nodiscard]] double value(double row_value, double at_x) const {
+        // Written so that a NaN (elevations near the end of the range) gives a corner's elevation.
+        double z = row_value + gradient * (at_x - x);
+        z = z < highest ? z : highest;
+        return z > lowest ? z : lowest;
+    }
+};
+
 /// The plane through a face's corners, clamped to their elevations. A pure function of the corners in the
 /// order given.
 ///
@@ -28,18 +44,11 @@ class FacePlane {
     explicit FacePlane(const std::array<SurfaceCorner, 3>& corner);
 
     [[nodiscard]] bool is_needle() const { return is_needle_; }
-    /// Elevation at a key; not for needles.
-    [[nodiscard]] double value(Key2 at) const { return value_in_row(row_value(at.y), at.x); }
-    /// The part of the elevation that is the same for a whole row, and the rest.
+    /// The part of the elevation that is the same for a whole row; not for needles.
     [[nodiscard]] double row_value(double y) const {
         return corner_[0].z + gradient_.y * (y - corner_[0].key.y);
     }
-    [[nodiscard]] double value_in_row(double row_value, double x) const {
-        // Written so that a NaN (elevations near the end of the range) gives a corner's elevation.
-        double z = row_value + gradient_.x * (x - corner_[0].key.x);
-        z = z < highest_ ? z : highest_;
-        return z > lowest_ ? z : lowest_;
-    }
+    [[nodiscard]] PlaneSection section() const { return {corner_[0].key.x, gradient_.x, lowest_, highest_}; }
     /// Elevation at a key inside a needle or on its border; right for every face.
     [[nodiscard]] double needle_value(Key2 at) const;
 

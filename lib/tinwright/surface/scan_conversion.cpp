@@ -15,6 +15,7 @@
 #include "tinwright/surface/band_index.hpp"
 #include "tinwright/surface/face_plane.hpp"
 #include "tinwright/surface/scan_lattice.hpp"
+#include "tinwright/surface/span_queue.hpp"
 
 namespace tinwright {
 
@@ -85,7 +86,7 @@ class BandWriter {
         : scene_(scene), first_row_(first_row), end_row_(end_row), values_(values) {}
 
     /// Cells whose centres lie in the face, closed at its left and bottom. Returns how many.
-    std::int64_t write_face(FaceId f) const;
+    std::int64_t write_face(FaceId f, SpanQueue<Value>& queue) const;
     /// Hands cells whose centres lie exactly on the edge, and their values, to `visit(index, value)`.
     template <class Visit>
     void visit_edge(HalfEdgeId h, const Visit& visit) const;
@@ -96,7 +97,7 @@ class BandWriter {
         std::int32_t end = 0;
     };
 
-    void write_span(const FacePlane& plane, double y, Value* row, Span columns) const;
+    void write_needle(const FacePlane& plane, double y, Value* row, Span columns) const;
     [[nodiscard]] std::size_t index(std::int32_t row, std::int32_t column) const {
         return static_cast<std::size_t>(row - first_row_) *
                    static_cast<std::size_t>(scene_.lattice.columns()) +
@@ -113,7 +114,7 @@ class BandWriter {
 };
 
 template <class Value>
-std::int64_t BandWriter<Value>::write_face(FaceId f) const {
+std::int64_t BandWriter<Value>::write_face(FaceId f, SpanQueue<Value>& queue) const {
     const auto& v = scene_.tin.mesh.face(f).vertex;
     // The corner with the smallest id first, so that the plane does not depend on where the face starts.
     unsigned first = v[1] < v[0] ? 1 : 0;
@@ -140,29 +141,27 @@ std::int64_t BandWriter<Value>::write_face(FaceId f) const {
     const bool is_inside = lattice.is_inside(west, east);
     const CutEdge whole = lattice.cut(bottom.key, top.key);
     const std::array<CutEdge, 2> part{lattice.cut(middle.key, top.key), lattice.cut(bottom.key, middle.key)};
+    queue.start(plane.section());
     std::int64_t cells = 0;
     for (std::int32_t row = rows.first; row < rows.end; ++row) {
         const double y = lattice.row_y(row);
         const auto at = lattice.first_columns(whole, part[row < middle.row ? 0 : 1], y, is_inside);
         const Span columns{is_left_top ? at[0] : at[1], is_left_top ? at[1] : at[0]};
-        write_span(plane, y, values_ + index(row, 0), columns);
+        Value* const values = values_ + index(row, 0);
+        if (plane.is_needle()) {
+            write_needle(plane, y, values, columns);
+        } else {
+            queue.push(values, plane.row_value(y), columns.first, columns.end);
+        }
         cells += columns.end - columns.first;
     }
     return cells;
 }
 
 template <class Value>
-void BandWriter<Value>::write_span(const FacePlane& plane, double y, Value* row, Span columns) const {
-    const double* x = scene_.lattice.column_x();
-    if (plane.is_needle()) {
-        for (std::int32_t column = columns.first; column < columns.end; ++column) {
-            row[column] = static_cast<Value>(plane.needle_value({x[column], y}));
-        }
-        return;
-    }
-    const double row_value = plane.row_value(y);
+void BandWriter<Value>::write_needle(const FacePlane& plane, double y, Value* row, Span columns) const {
     for (std::int32_t column = columns.first; column < columns.end; ++column) {
-        row[column] = static_cast<Value>(plane.value_in_row(row_value, x[column]));
+        row[column] = static_cast<Value>(plane.needle_value({scene_.lattice.column_x(column), y}));
     }
 }
 
@@ -283,19 +282,21 @@ std::int64_t ScanConverter::State::write_faces(const BandWriter<Value>& writer, 
     std::atomic<std::int64_t> cells = 0;
     if (bands == 1) {
         tbb::parallel_for(Range(0, scene.tin.mesh.slot_count(), kGrain), [&](const Range& range) {
+            SpanQueue<Value> queue(scene.lattice.column_x());
             std::int64_t written = 0;
             for (std::size_t f = range.begin(); f != range.end(); ++f) {
                 const FaceId face{static_cast<std::uint32_t>(f)};
-                written += scene.tin.mesh.is_terrain(face) ? writer.write_face(face) : 0;
+                written += scene.tin.mesh.is_terrain(face) ? writer.write_face(face, queue) : 0;
             }
             cells += written;
         });
     } else {
         const std::span<const std::uint32_t> items = faces.band(band);
         tbb::parallel_for(Range(0, items.size(), kGrain), [&](const Range& range) {
+            SpanQueue<Value> queue(scene.lattice.column_x());
             std::int64_t written = 0;
             for (std::size_t i = range.begin(); i != range.end(); ++i) {
-                written += writer.write_face({items[i]});
+                written += writer.write_face({items[i]}, queue);
             }
             cells += written;
         });
