@@ -5,7 +5,6 @@
 #include <cctype>
 #include <charconv>
 #include <memory>
-#include <utility>
 
 #include <cpl_conv.h>
 #include <cpl_string.h>
@@ -140,13 +139,14 @@ void TinLayer::write() {
 }
 
 TinDataset::TinDataset(const TinDriver& driver, const std::string& path, const std::string& target,
-                       const Crs& crs, TinMetadata metadata, const WriteTinOptions& options)
+                       const Crs& crs, const WriteTinOptions& options, const TinMetadata& counts)
     : driver_(driver),
       path_(path),
       target_(target),
       crs_(crs),
-      metadata_(std::move(metadata)),
+      metadata_(options.metadata),
       options_(options) {
+    metadata_.insert(metadata_.end(), counts.begin(), counts.end());
     if (const char* const date = CPLGetThreadLocalConfigOption(kDateOption, nullptr)) {
         former_date_ = date;
     }

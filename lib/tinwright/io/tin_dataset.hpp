@@ -58,9 +58,10 @@ class TinLayer {
 
 class TinDataset {
   public:
-    /// Creates `path`; messages name `target`. Throws IoError.
+    /// Creates `path`; messages name `target`; `counts` join the metadata of `options`. The references are
+    /// kept. Throws IoError.
     TinDataset(const TinDriver& driver, const std::string& path, const std::string& target, const Crs& crs,
-               TinMetadata metadata, const WriteTinOptions& options);
+               const WriteTinOptions& options, const TinMetadata& counts = {});
     /// Closes, without a word, what was not closed.
     ~TinDataset();
     TinDataset(const TinDataset&) = delete;

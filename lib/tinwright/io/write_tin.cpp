@@ -68,11 +68,9 @@ std::size_t count_features(const Tin& tin, const TinDriver& driver, Geometry geo
     return tin.mesh.count_terrain() + (driver.has_layers ? edges.constrained + vertices : 0);
 }
 
-/// The metadata with the counts added that every TIN has.
-TinMetadata with_counts(TinMetadata metadata, const Tin& tin) {
-    metadata.emplace_back("TINWRIGHT_VERTICES", std::to_string(tin.vertex_count()));
-    metadata.emplace_back("TINWRIGHT_FACES", std::to_string(tin.mesh.count_terrain()));
-    return metadata;
+TinMetadata counts_of(const Tin& tin) {
+    return {{"TINWRIGHT_VERTICES", std::to_string(tin.vertex_count())},
+            {"TINWRIGHT_FACES", std::to_string(tin.mesh.count_terrain())}};
 }
 
 /// Writes one dataset at `path`; messages name `target`.
@@ -84,7 +82,7 @@ WrittenTin write_dataset(const Tin& tin, const Crs& crs, const TinDriver& driver
         options.layer_name.empty() ? default_layer(options.geometry) : options.layer_name;
     FeatureProgress progress(options.progress, count_features(tin, driver, options.geometry));
     const Tick tick = [&progress] { progress(); };
-    TinDataset dataset(driver, path, target, crs, with_counts(options.metadata, tin), options);
+    TinDataset dataset(driver, path, target, crs, options, counts_of(tin));
     written.layers.push_back(layer);
     switch (options.geometry) {
         case Geometry::Edges:
