@@ -181,6 +181,30 @@ TEST_SUITE("io/read_raster") {
         }
     }
 
+    TEST_CASE("reading is cancelled from the progress callback") {
+        const Raster raster;
+        ReadOptions options;
+        options.progress = [](double) { return false; };
+        CHECK_THROWS_AS(read(raster.path(), options), tinwright::Cancelled);
+    }
+
+    TEST_CASE("crs= replaces what the file says, with a warning") {
+        const Raster raster([](GDALDataset& dataset) {
+            OGRSpatialReference system;
+            system.importFromEPSG(3067);
+            dataset.SetSpatialRef(&system);
+        });
+        const Samples samples = read(std::string(raster.path()) + ",crs=EPSG:3875");
+        CHECK(samples.crs.code() == "EPSG:3875");
+        CHECK(samples.warnings ==
+              std::vector<std::string>{
+                  R"(file "/vsimem/r.tif": says EPSG:3067 (ETRS89 / TM35FIN(E,N)); read as )"
+                  "EPSG:3875 (ETRS89 / GK21FIN) because of crs="});
+        ReadOptions options;
+        options.source_crs = Crs::parse("EPSG:3875");
+        CHECK(read(raster.path(), options).crs.code() == "EPSG:3067");
+    }
+
     TEST_CASE("a raster that cannot be used says why") {
         const Raster raster;
         CHECK(message_of<UsageError>([&] { read(std::string(raster.path()) + ",z=5"); }) ==

@@ -136,13 +136,13 @@ Both read_both_ways(const std::string& path, VectorPlan plan = {}) {
 
 TEST_SUITE("io/read_vector") {
     TEST_CASE("points come back bit for bit from every format that keeps z") {
-        for (const auto& [driver, name] :
-             std::vector<std::pair<std::string, std::string>>{{"GPKG", "p.gpkg"},
-                                                              {"ESRI Shapefile", "p.shp"},
-                                                              {"FlatGeobuf", "p.fgb"},
-                                                              {"SQLite", "p.sqlite"}}) {
+        for (const auto& form : std::vector<std::pair<std::string, std::string>>{{"GPKG", "p.gpkg"},
+                                                                                 {"ESRI Shapefile", "p.shp"},
+                                                                                 {"FlatGeobuf", "p.fgb"},
+                                                                                 {"SQLite", "p.sqlite"}}) {
+            const std::string driver = form.first;
             CAPTURE(driver);
-            VectorFile file(driver, name);
+            VectorFile file(driver, form.second);
             const std::vector<Point3> points = random_points(1000, 5);
             OGRLayer& layer = file.add_layer("p", wkbPoint25D, "EPSG:3067", {{"h", OFTReal}});
             for (const Point3& p : points) {
@@ -390,6 +390,26 @@ TEST_SUITE("io/read_vector") {
         CHECK(message_of<InputError>([&] { read(csv.path() + ",layer=t"); }) ==
               R"(file "/vsimem/t.csv", layer "t": a table without geometries; give xfield=, yfield= and z= )"
               R"((fields: "a", "b", "c"))");
+    }
+
+    TEST_CASE("reading is cancelled from the progress callback, by either way") {
+        ReadOptions options;
+        options.progress = [](double) { return false; };
+        VectorFile file("GPKG", "c.gpkg");
+        add_feature(file.add_layer("c", wkbPoint25D), "POINT Z (1 2 3)");
+        CHECK_THROWS_AS(read(file.close(), options), tinwright::Cancelled);
+        VectorFile shapes("ESRI Shapefile", "c.shp");
+        OGRLayer& layer = shapes.add_layer("c", wkbPoint25D);
+        for (const Point3& p : random_points(20000, 1)) {
+            add_point(layer, p);
+        }
+        CHECK_THROWS_AS(read(shapes.close(), options), tinwright::Cancelled);
+    }
+
+    TEST_CASE("GeoPackage's undefined systems are no CRS") {
+        VectorFile file("GPKG", "u.gpkg");
+        add_feature(file.add_layer("u", wkbPoint25D), "POINT Z (1 2 3)");
+        CHECK_FALSE(read(file.close()).crs.is_known());
     }
 
     TEST_CASE("what GDAL does not know is refused on one line") {

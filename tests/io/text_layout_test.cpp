@@ -133,7 +133,8 @@ TEST_SUITE("io/text_layout") {
         CHECK(looks_like_rows("1 2 3\n4 5 6\n"));
         CHECK(looks_like_rows("x;y;z\n1;2;3\n"));
         CHECK_FALSE(looks_like_rows("Dear Sir,\nplease find\n"));
-        CHECK_FALSE(looks_like_rows("{\"type\": \"FeatureCollection\"}\n"));
+        CHECK_FALSE(looks_like_rows("{\n[1, 2, 3],\n[1, 2, 3],\n[1, 2, 3]\n"));
+        CHECK_FALSE(looks_like_rows("<P>\n1 2 3\n4 5 6\n</P>\n"));
         CHECK_FALSE(looks_like_rows(std::string("1 2 3\n\0\n", 8)));
         CHECK_FALSE(looks_like_rows(""));
     }

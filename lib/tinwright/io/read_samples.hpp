@@ -17,8 +17,8 @@ namespace tinwright::io {
 struct ReadOptions {
     bool skip_bad = false;  ///< count unusable rows and features and go on, instead of failing at the first
     Crs crs;                ///< --crs: the working system; unknown: the one the samples share
-    Crs source_crs;         ///< --source-crs: for sources that carry none
-    int threads = 1;        ///< 0: all processors
+    Crs source_crs;         ///< --source-crs: for sources that carry none; a source's crs= comes first
+    int threads = 1;        ///< 0: all processors, and never more than there are
     Progress progress;
 };
 
@@ -55,7 +55,9 @@ struct Samples {
     [[nodiscard]] std::string describe(std::size_t sample) const;
 };
 
-/// Reads sources one after the other into one array, in source and feature order.
+/// Reads sources one after the other into one array, in source and feature order. Sources in another system
+/// than the working one are transformed to it; those without any are taken to be in it, with one warning.
+/// Degrees are never taken for a plane: geographic samples without a projected `crs` to go to are refused.
 /// Throws IoError (cannot be opened or read), InputError (unusable content, naming file, layer, feature or
 /// line), UsageError (options that do not fit), Cancelled. O(n); text is parsed in parallel by chunks.
 Samples read_samples(std::span<const Source> sources, const ReadOptions& options = {});

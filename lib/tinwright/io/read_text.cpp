@@ -96,7 +96,9 @@ class TextReader {
     /// Moves the unfinished line to the front and reads on, until there is at least one whole line. False at
     /// the end of the file.
     bool fill() {
-        std::memmove(buffer_.data(), buffer_.data() + whole_, used_ - whole_);
+        if (used_ > whole_) {
+            std::memmove(buffer_.data(), buffer_.data() + whole_, used_ - whole_);
+        }
         used_ -= whole_;
         whole_ = 0;
         while (whole_ == 0 && !is_at_end_) {
@@ -154,17 +156,16 @@ class TextReader {
             take(rows);
             return;
         }
-        std::vector<TextRows> rows(pieces.size());
+        rows_.resize(std::max(rows_.size(), pieces.size()));
         arena_.execute([&] {
             tbb::parallel_for(std::size_t{0}, pieces.size(), [&](std::size_t i) {
-                rows[i].points.reserve(pieces[i].size() / 16);
-                parse_rows(pieces[i], layout_, skip, rows[i]);
+                rows_[i].clear();
+                parse_rows(pieces[i], layout_, skip, rows_[i]);
             });
         });
-        for (TextRows& piece : rows) {
-            points_.insert(points_.end(), piece.points.begin(), piece.points.end());
-            take(piece);
-            piece = TextRows();
+        for (std::size_t i = 0; i < pieces.size(); ++i) {
+            points_.insert(points_.end(), rows_[i].points.begin(), rows_[i].points.end());
+            take(rows_[i]);
         }
     }
 
@@ -198,6 +199,7 @@ class TextReader {
     tbb::task_arena arena_;
     TextLayout layout_;
     std::vector<char> buffer_;
+    std::vector<TextRows> rows_;  // one a piece; their memory serves every batch
     std::size_t batch_bytes_ = piece_bytes;
     std::size_t used_ = 0;   // bytes in the buffer
     std::size_t whole_ = 0;  // of them, whole lines

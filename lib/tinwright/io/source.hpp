@@ -17,13 +17,17 @@ struct Source {
     std::optional<std::string> layer;
     std::optional<std::string> where;
     std::optional<std::string> sql;
-    std::optional<std::string> z;  ///< `geometry`, a field's name, or a constant
-    std::optional<std::string> x_field;
+    /// `geometry`, a field's name, or a constant. In text also a column's number from 1, so that z=3 is the
+    /// third column of a file that has three; z=3.0 is the constant.
+    std::optional<std::string> z;
+    std::optional<std::string> x_field;  ///< a name; in text also a column's number from 1
     std::optional<std::string> y_field;
     bool vertices = false;  ///< vertices of lines and polygons are samples
     std::optional<int> band;
     std::optional<int> stride;
-    std::optional<std::string> crs;
+    std::optional<std::string> crs;  ///< of this source, whatever the file says
+    /// Text: `Xyz` takes the first three numeric columns where a header does not name them, `Pnezd` columns 2
+    /// to 4 as y, x, z likewise, `Csv` asks for a header's names as without a format.
     Format format = Format::Auto;
     Kind as = Kind::Auto;
     std::vector<std::string> open_options;  ///< KEY=VALUE, in the order given

@@ -389,8 +389,8 @@ bool looks_like_rows(std::string_view head) {
     }
     const Beginning beginning = find_beginning(head);
     std::size_t good = 0;
-    if (beginning.rows.empty()) {
-        return false;
+    if (beginning.rows.empty() || trimmed(beginning.rows.front().text).find_first_of("{[<") == 0) {
+        return false;  // JSON and XML have rows of numbers, too
     }
     find_splitting(beginning.rows, 2, good);
     return 2 * good >= beginning.rows.size() && good >= 1;

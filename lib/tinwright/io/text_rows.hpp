@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "tinwright/geometry/point.hpp"
@@ -20,6 +21,14 @@ struct TextRows {
     std::size_t skipped = 0;
     std::string error;  ///< of the first unusable row, empty when there was none
     std::int64_t error_line = 0;
+
+    /// Empty again; keeps the memory of the points.
+    void clear() {
+        std::vector<Point3> memory = std::move(points);
+        *this = TextRows();
+        points = std::move(memory);
+        points.clear();
+    }
 };
 
 /// Parses whole lines, the last one ended by '\n'. Appends to `rows`; stops at the first unusable row unless

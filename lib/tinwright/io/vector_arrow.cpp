@@ -128,7 +128,7 @@ class ArrowReader {
   public:
     ArrowReader(const VectorPlan& plan, const SliceRequest& request, std::vector<Point3>& points,
                 RawSlice& slice)
-        : plan_(plan), request_(request), points_(points), slice_(slice), samples_(plan, points, slice) {}
+        : plan_(plan), request_(request), points_(points), samples_(plan, points, slice) {}
 
     bool read() {
         const GdalMessages messages;
@@ -271,7 +271,6 @@ class ArrowReader {
     const VectorPlan& plan_;
     const SliceRequest& request_;
     std::vector<Point3>& points_;
-    RawSlice& slice_;
     FeatureSamples samples_;
     Columns columns_;
     std::int64_t total_ = 0;
