@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include <cpl_conv.h>
 
@@ -35,7 +36,9 @@ std::pair<double, double> find_z_range(const Tin& tin) {
 
 RasterValues::RasterValues(const Tin& tin, const RasterDriver& driver, std::optional<double> asked)
     : type_(driver.type), is_integer_(driver.is_integer()), range_(integer_range(driver.type)) {
-    auto [lowest, highest] = find_z_range(tin);
+    const std::pair<double, double> range = find_z_range(tin);
+    double lowest = range.first;
+    double highest = range.second;
     if (is_integer_) {
         lowest = std::round(lowest);
         highest = std::round(highest);

@@ -169,27 +169,29 @@ template <class Value>
 template <class Visit>
 void BandWriter<Value>::visit_edge(HalfEdgeId h, const Visit& visit) const {
     const ScanLattice& lattice = scene_.lattice;
-    const auto [lower, upper] = ends(scene_, h);
-    const Key2 from = lower.key;
-    const Key2 to = upper.key;
+    const std::pair<ScanVertex, ScanVertex> end = ends(scene_, h);  // lower, upper
+    const Key2 from = end.first.key;
+    const Key2 to = end.second.key;
+    const double from_z = end.first.z;
+    const double to_z = end.second.z;
     const RowRange touched = rows_of_edge(scene_, h);
     const Span rows = within_band(touched.first, touched.last + 1);
     const bool is_steep = to.y - from.y > std::abs(to.x - from.x);
     const auto visit_cell = [&](std::int32_t row, std::int32_t column) {
         const Key2 at{lattice.column_x(column), lattice.row_y(row)};
         if (at == to) {
-            visit(index(row, column), upper.z);
+            visit(index(row, column), to_z);
             return;
         }
         const double along = is_steep ? (at.y - from.y) / (to.y - from.y) : (at.x - from.x) / (to.x - from.x);
-        const double z = lower.z + (upper.z - lower.z) * along;
-        visit(index(row, column), std::clamp(z, std::min(lower.z, upper.z), std::max(lower.z, upper.z)));
+        const double z = from_z + (to_z - from_z) * along;
+        visit(index(row, column), std::clamp(z, std::min(from_z, to_z), std::max(from_z, to_z)));
     };
     if (from.y == to.y) {
         const double* x = lattice.column_x();
-        const double* end = std::upper_bound(x, x + lattice.columns(), to.x);
+        const double* past = std::upper_bound(x, x + lattice.columns(), to.x);
         for (std::int32_t row = rows.first; row < rows.end; ++row) {
-            for (const double* at = std::lower_bound(x, end, from.x); at < end; ++at) {
+            for (const double* at = std::lower_bound(x, past, from.x); at < past; ++at) {
                 visit_cell(row, static_cast<std::int32_t>(at - x));
             }
         }
