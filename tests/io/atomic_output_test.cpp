@@ -160,6 +160,18 @@ TEST_SUITE("io/atomic_output") {
         CHECK(read_bytes(folder.file("real/a.tif")) == "newer");
     }
 
+    TEST_CASE("when the last file cannot be moved, the side-car files are taken back") {
+        const TemporaryFolder folder;
+        {
+            AtomicOutput output(folder.file("a.shp"), true);
+            write_bytes(output.path(), "main");
+            write_bytes(std::filesystem::path(output.path()).replace_extension(".dbf"), "side-car");
+            std::filesystem::create_directories(folder.file("a.shp/in the way"));
+            CHECK_THROWS_AS(output.commit(), IoError);
+        }
+        CHECK(folder.names() == Names{"a.shp"});
+    }
+
     TEST_CASE("a commit without a file is an error") {
         const TemporaryFolder folder;
         {

@@ -287,10 +287,15 @@ void AtomicOutput::commit() {
             }
         }
     }
-    for (const fs::path& name : names) {
-        fs::rename(fs::path(folder_) / name, folder / name, error);
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        const fs::path place = folder / names[i];
+        fs::rename(fs::path(folder_) / names[i], place, error);
         if (error) {
-            throw IoError("cannot move the finished file to " + io::quoted((folder / name).string()) + ": " +
+            std::error_code ignored;
+            for (std::size_t moved = 0; moved < i; ++moved) {
+                fs::remove_all(folder / names[moved], ignored);  // a side-car file alone helps nobody
+            }
+            throw IoError("cannot move the finished file to " + io::quoted(place.string()) + ": " +
                           reason(error));
         }
     }
