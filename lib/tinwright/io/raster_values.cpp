@@ -17,8 +17,14 @@ namespace {
 
 std::string number(double value) { return CPLSPrintf("%.15g", value); }
 
+/// Lowest and highest elevation of the vertices, those of no face included: a quick look.
+std::pair<double, double> find_vertex_range(const Tin& tin) {
+    const auto [lowest, highest] = std::minmax_element(tin.z.begin(), tin.z.end());
+    return tin.z.empty() ? std::pair(0.0, 0.0) : std::pair(*lowest, *highest);
+}
+
 /// Lowest and highest elevation of the terrain.
-std::pair<double, double> find_z_range(const Tin& tin) {
+std::pair<double, double> find_terrain_range(const Tin& tin) {
     double lowest = std::numeric_limits<double>::infinity();
     double highest = -lowest;
     for (std::uint32_t f = 0; f < tin.mesh.slot_count(); ++f) {
@@ -36,7 +42,17 @@ std::pair<double, double> find_z_range(const Tin& tin) {
 
 RasterValues::RasterValues(const Tin& tin, const RasterDriver& driver, std::optional<double> asked)
     : type_(driver.type), is_integer_(driver.is_integer()), range_(integer_range(driver.type)) {
-    const std::pair<double, double> range = find_z_range(tin);
+    // The margin is wider than what Float32 rounds away.
+    const auto is_harmless = [&](std::pair<double, double> range) {
+        const double largest = std::max(-range.first, range.second);
+        const double nodata = asked.value_or(nodata_);
+        return !is_integer_ && largest <= static_cast<double>(std::numeric_limits<float>::max()) &&
+               !(nodata >= range.first - 1e-6 * largest && nodata <= range.second + 1e-6 * largest);
+    };
+    std::pair<double, double> range = find_vertex_range(tin);
+    if (!is_harmless(range)) {
+        range = find_terrain_range(tin);
+    }
     double lowest = range.first;
     double highest = range.second;
     if (is_integer_) {

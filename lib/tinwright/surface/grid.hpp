@@ -42,10 +42,13 @@ struct GridRequest {
 };
 
 /// Fills in what the request leaves open: extent = bounds of the terrain grown to whole cells from its
-/// (x_min, y_max) corner; resolution = half the median distance from a vertex to its nearest neighbour,
-/// rounded to 1, 2 or 5 times a power of ten; size = ceil(extent / resolution).
-/// Throws UsageError for contradictory requests (size with resolution and extent that disagree, --tap
-/// without a resolution) and for rasters beyond 2^31 - 1 columns or rows. O(n).
+/// (x_min, y_max) corner; resolution = extent / size, or without a size half the median distance from a
+/// vertex to its nearest neighbour, rounded to 1, 2 or 5 times a power of ten; size = ceil(extent /
+/// resolution), decided on the decimal numbers that the doubles mean, so that rounding adds no cell.
+/// A size and a resolution without an extent start at the terrain's (x_min, y_max).
+/// Throws UsageError for contradictory requests (size with resolution and extent that disagree, alignment
+/// without a resolution), empty extents, resolutions that are not positive, and rasters beyond 2^31 - 1
+/// columns or rows; InputError where bounds or spacing of a TIN without faces are needed. O(n).
 GridGeometry choose_grid(const Tin& tin, const GridRequest& request);
 
 /// Median over the terrain's vertices of the length of their shortest edge (the distance to the nearest
