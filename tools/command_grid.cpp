@@ -105,6 +105,10 @@ Outcome CommandGrid::run() {
     const Surface surface =
         is_tin ? read_existing_tin(request, console) : triangulate_sources(request, console);
     const GridGeometry grid = grid_for(surface, like, like_crs);
+    if (like_crs.is_known() && !surface.crs.is_known()) {
+        console.warn("the source carries no CRS, so the raster has none, though --like " +
+                     io::quoted(raster.like) + " is in " + like_crs.name() + "; --source-crs assigns one");
+    }
     options.metadata = raster_metadata(surface, *this);
     options.progress = console.progress().stage(0.6, 1);
     const io::WrittenGrid written = io::write_grid(surface.tin, surface.crs, grid, output.path, options);

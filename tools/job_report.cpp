@@ -85,10 +85,13 @@ std::string input_line(const Surface& surface) {
 }
 
 std::string duplicates_line(const JobReport& report, const DuplicateReport& duplicates) {
-    std::string text = std::to_string(duplicates.equal) + " equal";
+    std::string text;
+    if (duplicates.equal > 0) {
+        text = std::to_string(duplicates.equal) + " merged with an equal one";
+    }
     if (duplicates.conflicting > 0) {
-        text += ", " + std::to_string(duplicates.conflicting) + " conflicting (" + report.duplicate_policy +
-                " taken)";
+        text += (text.empty() ? "" : ", ") + std::to_string(duplicates.conflicting) + " conflicting (" +
+                report.duplicate_policy + " taken)";
     }
     return text;
 }
@@ -117,17 +120,33 @@ std::string tin_line(const JobReport& report, const Surface& surface) {
     return text;
 }
 
+/// Enough digits for a cell size; more are the noise of the raster it was taken from.
+std::string length_text(double value) {
+    char text[48];
+    std::snprintf(text, sizeof text, "%.10g", value);
+    return text;
+}
+
 std::string raster_line(const RasterReport& raster) {
     const GridGeometry& grid = raster.grid;
     const double cells = static_cast<double>(grid.columns) * static_cast<double>(grid.rows);
     const double share = 100 * static_cast<double>(raster.written.cells_with_value) / cells;
-    std::string size = number_text(grid.cell_width);
-    if (grid.cell_height != grid.cell_width) {
-        size += " x " + number_text(grid.cell_height);
+    std::string size = length_text(grid.cell_width);
+    if (length_text(grid.cell_height) != size) {
+        size += " x " + length_text(grid.cell_height);
     }
     return std::to_string(grid.columns) + " x " + std::to_string(grid.rows) + " cells of " + size +
            (raster.is_resolution_chosen ? " (chosen from the sample spacing)" : "") + ", " + fixed(share, 1) +
            " % with a value, nodata " + number_text(raster.written.nodata);
+}
+
+std::string quantum_line(const Lattice& lattice) {
+    if (lattice.decimals() >= 0) {
+        return number_text(lattice.quantum());
+    }
+    char text[48];
+    std::snprintf(text, sizeof text, "2^%d, about %.1e", lattice.exponent(), lattice.quantum());
+    return std::string(text) + (lattice.is_exact() ? "" : "; coordinates are rounded to it");
 }
 
 std::string crs_line(const Surface& surface) {
@@ -218,8 +237,7 @@ std::string report_text(const JobReport& report, const Surface& surface, const R
     const Box bounds = bounds_of(surface);
     add("extent", number_text(bounds.x_min) + " " + number_text(bounds.y_min) + " " +
                       number_text(bounds.x_max) + " " + number_text(bounds.y_max));
-    add("quantum", number_text(surface.tin.lattice.quantum()) +
-                       (surface.tin.lattice.is_exact() ? "" : " (coordinates rounded to it)"));
+    add("quantum", quantum_line(surface.tin.lattice));
     if (surface.report && surface.report->duplicates.equal + surface.report->duplicates.conflicting > 0) {
         add("duplicates", duplicates_line(report, surface.report->duplicates));
         text += detail.conflicts ? conflict_lines(surface.report->duplicates) : "";

@@ -61,11 +61,18 @@ std::array<Point3, 3> corners_of(const Tin& tin, FaceId face) {
     return {tin.position(v[0]), tin.position(v[1]), tin.position(v[2])};
 }
 
+/// The bins from the first to the last that hold something.
 std::string histogram_lines(const Histogram& histogram, const char* unit) {
     constexpr std::size_t kBar = 40;
     const std::size_t most = *std::max_element(histogram.counts.begin(), histogram.counts.end());
+    std::size_t first = 0;
+    std::size_t last = histogram.counts.size();
+    for (; histogram.counts[first] == 0; ++first) {
+    }
+    for (; histogram.counts[last - 1] == 0; --last) {
+    }
     std::string lines;
-    for (std::size_t i = 0; i < histogram.counts.size(); ++i) {
+    for (std::size_t i = first; i < last; ++i) {
         char line[96];
         const std::string range =
             number_text(histogram.bounds[i]) + " to " + number_text(histogram.bounds[i + 1]);
