@@ -61,6 +61,12 @@ TEST_SUITE("io/read_text") {
                   .points == two_points);
     }
 
+    TEST_CASE("a .pts file's count of rows is no sample") {
+        const MemoryFile file("t.pts", "2\n1.5 2.25 -3 17 255 0 0\n4 5 6.125 18 0 0 0\n");
+        CHECK(read(file.path()).points == two_points);
+        CHECK(read(file.path()).slices[0].first_id == 2);
+    }
+
     TEST_CASE("ids are line numbers") {
         const Samples samples = read_text("# c\nx y z\n1 2 3\n\n4 5 6\n7 8 9\n");
         REQUIRE(samples.slices.size() == 1);

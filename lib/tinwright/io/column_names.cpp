@@ -38,10 +38,10 @@ constexpr std::array<std::string_view, 11> x_names = {
     "x", "xcoord", "xcoordinate", "coordx", "coordinatex", "pointx", "posx", "xpos", "geomx", "xutm", "utmx"};
 constexpr std::array<std::string_view, 11> y_names = {
     "y", "ycoord", "ycoordinate", "coordy", "coordinatey", "pointy", "posy", "ypos", "geomy", "yutm", "utmy"};
-constexpr std::array<std::string_view, 8> east_names = {"easting", "eastings", "east",       "e",
-                                                        "ecoord",  "utme",     "rechtswert", "ostwert"};
-constexpr std::array<std::string_view, 8> north_names = {"northing", "northings", "north",    "n",
-                                                         "ncoord",   "utmn",      "hochwert", "nordwert"};
+constexpr std::array<std::string_view, 9> east_names = {"easting", "eastings",   "east",    "e",  "ecoord",
+                                                        "utme",    "rechtswert", "ostwert", "ost"};
+constexpr std::array<std::string_view, 9> north_names = {"northing", "northings", "north",    "n",   "ncoord",
+                                                         "utmn",     "hochwert",  "nordwert", "nord"};
 constexpr std::array<std::string_view, 6> lon_names = {"longitude", "lon",    "long",
                                                        "lng",       "londeg", "longdeg"};
 constexpr std::array<std::string_view, 3> lat_names = {"latitude", "lat", "latdeg"};

@@ -143,6 +143,7 @@ class LayoutFinder {
                 header_line_ = first.number;
             }
         }
+        has_header_ = has_header_ || is_count_of_pts();
         if (has_header_ && beginning_.rows.size() == 1) {
             throw InputError(where_ + ", line " + std::to_string(first.number) +
                              ": nothing follows the header");
@@ -152,6 +153,13 @@ class LayoutFinder {
         }
         layout_.data_begin = first_row().offset;
         layout_.first_line = first_row().number;
+    }
+
+    /// A .pts file begins with the number of its rows.
+    [[nodiscard]] bool is_count_of_pts() const {
+        const std::string_view first = trimmed(beginning_.rows.front().text);
+        return (source_.path.ends_with(".pts") || source_.path.ends_with(".PTS")) &&
+               first.find_first_not_of("0123456789") == std::string_view::npos;
     }
 
     /// "# x y z" above the first row is a header when it names all three of as many columns.
