@@ -126,7 +126,7 @@ void write_violations(std::span<const CheckedSurface> surfaces, const std::strin
     }
     const io::Crs crs = surfaces.empty() ? io::Crs() : surfaces.front().crs;
     io::AtomicOutput output(target, options.overwrite);
-    io::TinDataset dataset(driver, output.path(), target, crs, {}, write_options);
+    io::TinDataset dataset(driver, output.path(), target, crs, write_options);
     io::TinLayer layer = dataset.add_layer("violations", wkbPoint25D, kFields, Tin{});
     int number = 0;
     for (const CheckedSurface& surface : surfaces) {
