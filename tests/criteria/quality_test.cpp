@@ -10,12 +10,13 @@ namespace {
 using namespace tinwright;
 
 /// A TIN on unit keys; faces as corner triples.
-Tin make_small_tin(std::vector<Key2> keys, std::vector<double> z, const std::vector<VertexId>& corners) {
+Tin make_small_tin(const std::vector<Key2>& keys, const std::vector<double>& z,
+                   const std::vector<VertexId>& corners) {
     Tin tin;
     tin.lattice = Lattice::decimal(0, {0, 0});
     tin.mesh = make_mesh(keys.size(), corners);
-    tin.keys = std::move(keys);
-    tin.z = std::move(z);
+    tin.keys.assign(keys.begin(), keys.end());
+    tin.z.assign(z.begin(), z.end());
     tin.sample.assign(tin.keys.size(), Tin::kNoSample);
     return tin;
 }
