@@ -1,0 +1,28 @@
+#ifndef TINWRIGHT_TESTS_BENCHMARKS_BENCHMARKS_HPP
+#define TINWRIGHT_TESTS_BENCHMARKS_BENCHMARKS_HPP
+
+#include <cstddef>
+#include <string>
+
+/// One function a table of docs/benchmarks.md; each prints its table on stdout.
+namespace tinwright_benchmarks {
+
+struct Settings {
+    int rounds = 5;         ///< interleaved runs of which the median is taken
+    double scale = 1;       ///< of the numbers of points and cells; below 1 for a quick look
+    std::string scratch;    ///< folder for large files
+    std::string tinwright;  ///< the command that is measured
+
+    [[nodiscard]] std::size_t count(double full) const;
+    /// Columns or rows of a raster, or of a grid of points: their product scales.
+    [[nodiscard]] int side(double full) const;
+};
+
+void run_delaunay(const Settings& settings);
+void run_raster(const Settings& settings);
+void run_job(const Settings& settings);
+void run_read(const Settings& settings);
+
+}  // namespace tinwright_benchmarks
+
+#endif

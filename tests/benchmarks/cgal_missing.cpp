@@ -1,0 +1,19 @@
+#include <stdexcept>
+
+#include "benchmarks/cgal_peer.hpp"
+
+namespace tinwright_benchmarks {
+
+bool has_cgal() { return false; }
+
+std::string cgal_name() { return "CGAL (not found at build time)"; }
+
+void measure_cgal(std::span<const tinwright::Point3> /*points*/, Meter& /*meter*/) {
+    throw std::runtime_error("built without CGAL");
+}
+
+std::vector<std::uint32_t> cgal_faces(std::span<const tinwright::Point3> /*points*/) {
+    throw std::runtime_error("built without CGAL");
+}
+
+}  // namespace tinwright_benchmarks
