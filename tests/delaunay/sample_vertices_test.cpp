@@ -221,6 +221,9 @@ TEST_SUITE("delaunay/sample_vertices") {
                 for (Point3& sample : samples) {
                     sample.z = random.real() - 0.5;
                 }
+                // Zeros of both signs are equal elevations, yet differ in their bits.
+                samples.insert(samples.end(),
+                               {{50, 50, 0.0}, {50, 50, -0.0}, {51, 51, -0.0}, {51, 51, -0.0}});
                 const DuplicateOptions options{.policy = policy, .tolerance = 1};
                 const SampleVertices vertices = make_sample_vertices(samples, options);
                 REQUIRE(same_vertices(make_sample_vertices(shuffled(random, samples), options), vertices));
@@ -260,7 +263,9 @@ TEST_SUITE("delaunay/sample_vertices") {
         for (const double bad :
              {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
             const Outcome outcome = refusal_of({{0, 0, 0}, {1.5, 2, bad}, {3, 3, bad}});
-            CHECK(outcome.text == "a sample's elevation is not a finite number; remove it");
+            CHECK(outcome.text ==
+                  "the elevation of the sample at (1.5, 2) is not a finite number; remove the sample or give "
+                  "its z");
             CHECK(outcome.samples == std::vector<std::size_t>{1});
         }
     }

@@ -167,6 +167,15 @@ TEST_SUITE("geometry/lattice") {
         CHECK(found.lattice.key({found.bounds.x_min, found.bounds.y_min}) == Key2{0, 0});
     }
 
+    TEST_CASE("samples too large for the decimals of others make the lattice binary in any order") {
+        std::vector<Point3> samples = {
+            {2251799813685.5, 0, 0}, {2251799813685.123, 1, 0}, {2251799813684.25, 7, 0}};
+        const Lattice lattice = find_lattice(samples).lattice;
+        CHECK(lattice.decimals() == -1);
+        std::swap(samples[0], samples[1]);
+        CHECK(find_lattice(samples).lattice == lattice);
+    }
+
     TEST_CASE("a negative zero comes back as zero") {
         const Lattice lattice = find_lattice(std::vector<Point3>{{-0.0, 1, 0}, {2, -0.0, 0}}).lattice;
         CHECK(same_bits(lattice.position(lattice.key({-0.0, 1})).x, 0.0));

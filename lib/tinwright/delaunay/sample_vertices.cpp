@@ -1,9 +1,8 @@
 #include "tinwright/delaunay/sample_vertices.hpp"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
+#include <compare>
 #include <limits>
 #include <numeric>
 #include <string>
@@ -13,6 +12,7 @@
 #include <tbb/parallel_reduce.h>
 
 #include "tinwright/geometry/curve.hpp"
+#include "tinwright/geometry/decimal.hpp"
 #include "tinwright/geometry/large_vector.hpp"
 
 namespace tinwright {
@@ -23,25 +23,8 @@ constexpr std::size_t kGrain = 1U << 14U;
 constexpr std::size_t kMostSamples = std::size_t{1} << 29U;
 constexpr std::size_t kNamedConflicts = 10;
 
-std::string shortest(double value) {
-    std::array<char, 32> text{};
-    const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
-    return {text.data(), end};
-}
-
-std::string location_text(const Point3& p) { return "(" + shortest(p.x) + ", " + shortest(p.y) + ")"; }
-
 // Whether the number was meant as it stands: at most 15 digits, as no rounding error has.
-bool is_written(double value) {
-    const std::string text = shortest(value);
-    const std::string mantissa = text.substr(0, text.find('e'));
-    const std::size_t first = mantissa.find_first_of("123456789");
-    if (first == std::string::npos) {
-        return true;
-    }
-    return std::count_if(mantissa.begin() + static_cast<std::ptrdiff_t>(first), mantissa.end(),
-                         [](char c) { return c != '.'; }) <= 15;
-}
+bool is_written(double value) { return std::abs(shortest_decimal(value).digits) < 1'000'000'000'000'000; }
 
 // Samples that a lattice coarser than the data puts on one key must be one location up to rounding noise.
 void check_merged(const Point3& a, const Point3& b, double noise, const Lattice& lattice,
@@ -51,8 +34,8 @@ void check_merged(const Point3& a, const Point3& b, double noise, const Lattice&
     };
     if (differ(a.x, b.x) || differ(a.y, b.y)) {
         throw InputError(
-            "the extent of the samples is too large for their detail: " + location_text(a) + " and " +
-                location_text(b) + " are closer than " + shortest(lattice.quantum()) +
+            "the extent of the samples is too large for their detail: " + location_text({a.x, a.y}) +
+                " and " + location_text({b.x, b.y}) + " are closer than " + decimal_text(lattice.quantum()) +
                 ", the extent divided by 2^45 = 35184372088832; remove outlying samples or round the "
                 "coordinates",
             {sample_a, sample_b});
@@ -98,7 +81,9 @@ class Merger {
                 check_merged(samples_[group.front()], samples_[i], noise_, out_.lattice, group.front(), i);
             }
         }
-        std::sort(sorted_.begin(), sorted_.end());
+        // A total order, so that zeros of both signs do not stay in the order they came in.
+        std::sort(sorted_.begin(), sorted_.end(),
+                  [](double a, double b) { return std::strong_order(a, b) < 0; });
         const double z_min = sorted_.front();
         const double z_max = sorted_.back();
         const bool conflicts = z_max - z_min > options_.tolerance;
@@ -126,8 +111,8 @@ class Merger {
         throw DuplicateError(
             std::to_string(conflicting_locations_) + (one ? " location has" : " locations have") +
                 " samples with different elevations, " + (one ? "at " : "the first at ") +
-                location_text({first.location.x, first.location.y, 0}) + " with z from " +
-                shortest(first.z_min) + " to " + shortest(first.z_max) +
+                location_text(first.location) + " with z from " + decimal_text(first.z_min) + " to " +
+                decimal_text(first.z_max) +
                 "; say which to take with --duplicates first|last|min|max|mean|median, or allow "
                 "for the difference with --duplicate-tolerance",
             out_.duplicates.first, conflicting_locations_);

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <cstdlib>
 #include <string>
 
@@ -90,6 +91,26 @@ double from_steps(Int128 steps, int exponent) {
 double scaled_decimal(double value, int power) {
     const Decimal decimal = shortest_decimal(value);
     return from_steps(decimal.digits, decimal.exponent + power);
+}
+
+std::string decimal_text(double value) {
+    std::array<char, 64> text{};
+    const double size = std::abs(value);
+    // "6.7e+06" is shorter than "6700000", but nobody writes coordinates like that.
+    const auto written =
+        size >= 1e-6 && size < 1e15
+            ? std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed)
+            : std::to_chars(text.data(), text.data() + text.size(), value);
+    return {text.data(), written.ptr};
+}
+
+std::string location_text(Point2 location) {
+    std::string text = "(";
+    text += decimal_text(location.x);
+    text += ", ";
+    text += decimal_text(location.y);
+    text += ")";
+    return text;
 }
 
 }  // namespace tinwright

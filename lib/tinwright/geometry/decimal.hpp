@@ -3,6 +3,9 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
+
+#include "tinwright/geometry/point.hpp"
 
 /// The decimal number a user means by a double: 0.1 is a tenth here, not the double next to it.
 namespace tinwright {
@@ -27,6 +30,12 @@ double from_steps(Int128 steps, int exponent);
 
 /// The decimal of `value` times 10^power, correctly rounded: scaled_decimal(0.57, 2) is 57.
 double scaled_decimal(double value, int power);
+
+/// The shortest text that reads back as `value`, without an exponent from 10^-6 up to 10^15: for people.
+std::string decimal_text(double value);
+
+/// "(x, y)" in the same way.
+std::string location_text(Point2 location);
 
 }  // namespace tinwright
 

@@ -11,6 +11,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_reduce.h>
 
+#include "tinwright/geometry/decimal.hpp"
 #include "tinwright/geometry/error.hpp"
 
 namespace tinwright {
@@ -153,15 +154,20 @@ FoundLattice find_lattice(std::span<const Point3> samples) {
     if (seen.first_bad != kNone) {
         const Point3& bad = samples[seen.first_bad];
         const bool is_elevation = std::isfinite(bad.x) && std::isfinite(bad.y);
-        throw InputError(std::string("a sample's ") + (is_elevation ? "elevation" : "x or y") +
-                             " is not a finite number; remove it",
+        throw InputError(is_elevation ? "the elevation of the sample at " + location_text({bad.x, bad.y}) +
+                                            " is not a finite number; remove the sample or give its z"
+                                      : "a sample's x or y is not a finite number; remove it",
                          {seen.first_bad});
     }
     const Box& bounds = seen.bounds;
     if (bounds.is_empty()) {
         return {Lattice{}, bounds};
     }
-    if (seen.decimals <= kMostDecimals) {
+    const double largest = std::max(
+        {std::abs(bounds.x_min), std::abs(bounds.x_max), std::abs(bounds.y_min), std::abs(bounds.y_max)});
+    // A sample met early was tested with the decimals known by then, which may be too many for its size.
+    if (seen.decimals <= kMostDecimals &&
+        largest * kPowersOfTen[static_cast<std::size_t>(seen.decimals)] < kStepLimit) {
         const Lattice plain = Lattice::decimal(seen.decimals, {});
         const double power = kPowersOfTen[static_cast<std::size_t>(seen.decimals)];
         const double steps = widest(bounds, [&](double v) { return Lattice::nearest_integer(v * power); });
@@ -175,8 +181,6 @@ FoundLattice find_lattice(std::span<const Point3> samples) {
         return {Lattice::decimal(seen.decimals, plain.key({bounds.x_min, bounds.y_min})), bounds};
     }
 
-    const double largest = std::max(
-        {std::abs(bounds.x_min), std::abs(bounds.x_max), std::abs(bounds.y_min), std::abs(bounds.y_max)});
     const double extent = std::max(bounds.x_max - bounds.x_min, bounds.y_max - bounds.y_min);
     const auto fits = [&](int exponent) {
         const double step = std::ldexp(1.0, exponent);

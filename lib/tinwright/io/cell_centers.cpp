@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "tinwright/io/decimal.hpp"
+#include "tinwright/io/read_number.hpp"
 
 namespace tinwright::io {
 namespace {

@@ -9,13 +9,12 @@
 
 #include <cpl_conv.h>
 
+#include "tinwright/geometry/decimal.hpp"
 #include "tinwright/geometry/error.hpp"
 
 namespace tinwright::io {
 
 namespace {
-
-std::string number(double value) { return CPLSPrintf("%.15g", value); }
 
 /// Lowest and highest elevation of the vertices, those of no face included: a quick look.
 std::pair<double, double> find_vertex_range(const Tin& tin) {
@@ -60,7 +59,7 @@ RasterValues::RasterValues(const Tin& tin, const RasterDriver& driver, std::opti
         highest = std::round(highest);
     } else if (type_ == GDT_Float32) {
         if (std::max(-lowest, highest) > static_cast<double>(std::numeric_limits<float>::max())) {
-            throw InputError("elevations from " + number(lowest) + " to " + number(highest) +
+            throw InputError("elevations from " + decimal_text(lowest) + " to " + decimal_text(highest) +
                              " do not fit Float32; use --ot Float64");
         }
         lowest = static_cast<double>(static_cast<float>(lowest));
@@ -76,8 +75,8 @@ RasterValues::RasterValues(const Tin& tin, const RasterDriver& driver, std::opti
                          [&](double value) { return value >= range_.lowest && is_outside(value); });
         if (found == std::end(candidates)) {
             throw InputError(
-                "elevations from " + number(lowest) + " to " + number(highest) + " leave no value of " +
-                driver.type_name() +
+                "elevations from " + decimal_text(lowest) + " to " + decimal_text(highest) +
+                " leave no value of " + driver.type_name() +
                 " for nodata; use a wider type with --ot, or --nodata with a value that does not occur");
         }
         nodata_ = *found;
@@ -98,14 +97,14 @@ void RasterValues::refuse(double value, std::int64_t cell, const GridGeometry& g
     const std::int64_t row = first_row + cell / grid.columns;
     const Point2 at = grid.centre(column, row);
     const std::string where = "the cell at column " + std::to_string(column) + ", row " +
-                              std::to_string(row) + " (" + number(at.x) + ", " + number(at.y) + ")";
+                              std::to_string(row) + " " + location_text(at);
     if (is_integer_ && !(value >= range_.lowest && value <= range_.highest)) {
-        throw InputError(where + " has the elevation " + number(value) + ", which does not fit " +
-                         GDALGetDataTypeName(type_) + " (" + number(range_.lowest) + " to " +
-                         number(range_.highest) + "); use --ot " +
+        throw InputError(where + " has the elevation " + decimal_text(value) + ", which does not fit " +
+                         GDALGetDataTypeName(type_) + " (" + decimal_text(range_.lowest) + " to " +
+                         decimal_text(range_.highest) + "); use --ot " +
                          (std::abs(value) < 2147483647.0 ? "Int32 or Float32" : "Float64"));
     }
-    throw InputError(where + " has the elevation " + number(value) +
+    throw InputError(where + " has the elevation " + decimal_text(value) +
                      ", which stands for nodata; choose another value with --nodata");
 }
 

@@ -8,8 +8,8 @@
 #include <ogrsf_frmts.h>
 
 #include "tinwright/io/column_names.hpp"
-#include "tinwright/io/decimal.hpp"
 #include "tinwright/io/gdal_session.hpp"
+#include "tinwright/io/read_number.hpp"
 #include "tinwright/io/vector_arrow.hpp"
 #include "tinwright/io/vector_features.hpp"
 

@@ -7,8 +7,8 @@
 
 #include "tinwright/geometry/error.hpp"
 #include "tinwright/io/column_names.hpp"
-#include "tinwright/io/decimal.hpp"
 #include "tinwright/io/gdal_session.hpp"
+#include "tinwright/io/read_number.hpp"
 
 namespace tinwright::io {
 namespace {

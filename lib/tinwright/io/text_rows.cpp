@@ -8,8 +8,8 @@
 #include <tuple>
 #include <utility>
 
-#include "tinwright/io/decimal.hpp"
 #include "tinwright/io/gdal_session.hpp"
+#include "tinwright/io/read_number.hpp"
 
 namespace tinwright::io {
 namespace {

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
-#include <charconv>
 #include <cstdio>
 #include <string_view>
 
@@ -12,6 +10,7 @@
 #include <gdal_priv.h>
 #include <ogr_spatialref.h>
 
+#include "tinwright/geometry/decimal.hpp"
 #include "tinwright/geometry/error.hpp"
 #include "tinwright/io/gdal_session.hpp"
 
@@ -84,22 +83,14 @@ bool has_option(const std::vector<std::string>& options, std::string_view key) {
 }
 
 // Decimals of the shortest text that reads back as the same number.
-int decimals_of(double value) {
-    std::array<char, 400> text;
-    const auto end = std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed);
-    const std::string_view digits(text.data(), static_cast<std::size_t>(end.ptr - text.data()));
-    const std::size_t point = digits.find('.');
-    return point == std::string_view::npos ? 0 : static_cast<int>(digits.size() - point - 1);
-}
+int decimals_of(double value) { return std::max(0, -shortest_decimal(value).exponent); }
 
 int significant_digits_of(double value) {
-    std::array<char, 40> text;
-    const auto end =
-        std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::scientific);
-    const std::string_view digits(text.data(), static_cast<std::size_t>(end.ptr - text.data()));
-    const std::string_view mantissa = digits.substr(0, digits.find('e'));
-    return static_cast<int>(std::count_if(mantissa.begin(), mantissa.end(),
-                                          [](unsigned char c) { return std::isdigit(c) != 0; }));
+    int count = 1;
+    for (std::int64_t digits = shortest_decimal(value).digits / 10; digits != 0; digits /= 10) {
+        ++count;
+    }
+    return count;
 }
 
 template <class Measure>

@@ -1,12 +1,12 @@
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "tinwright/geometry/curve.hpp"
+#include "tinwright/geometry/decimal.hpp"
 #include "tinwright/geometry/error.hpp"
 #include "tinwright/geometry/predicates.hpp"
 #include "tinwright/io/gdal_session.hpp"
@@ -15,19 +15,7 @@
 namespace tinwright::io {
 namespace {
 
-std::string number(double value) {
-    std::array<char, 32> text;
-    return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
-}
-
-std::string at(const Point3& p) {
-    std::string text = "at (";
-    text += number(p.x);
-    text += ", ";
-    text += number(p.y);
-    text += ')';
-    return text;
-}
+std::string at(const Point3& p) { return "at " + location_text({p.x, p.y}); }
 
 constexpr const char* kCheck = "; `tinwright check` lists every such place";
 
@@ -74,7 +62,7 @@ void TinMaker::number_vertices() {
         const bool is_repeated = !tin_.keys.empty() && tin_.keys.back() == keys[i];
         if (is_repeated && tin_.z.back() != p.z) {
             throw InputError("layer " + io::quoted(file_.layer) + ": two elevations " + at(p) + ", " +
-                             number(tin_.z.back()) + " and " + number(p.z) + kCheck);
+                             decimal_text(tin_.z.back()) + " and " + decimal_text(p.z) + kCheck);
         }
         if (!is_repeated) {
             const bool is_steiner = i < file_.is_steiner.size() && file_.is_steiner[i];

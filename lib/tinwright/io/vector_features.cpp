@@ -6,8 +6,8 @@
 
 #include <ogrsf_frmts.h>
 
-#include "tinwright/io/decimal.hpp"
 #include "tinwright/io/gdal_session.hpp"
+#include "tinwright/io/read_number.hpp"
 
 namespace tinwright::io {
 namespace {

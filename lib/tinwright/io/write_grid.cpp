@@ -16,6 +16,7 @@
 #include <tbb/task_group.h>
 
 #include "tinwright/geometry/error.hpp"
+#include "tinwright/geometry/threads.hpp"
 #include "tinwright/io/atomic_output.hpp"
 #include "tinwright/io/gdal_session.hpp"
 #include "tinwright/io/preview.hpp"
@@ -322,7 +323,7 @@ WrittenGrid write_grid(const Tin& tin, const Crs& crs, const GridGeometry& grid,
         preview = std::make_unique<AtomicOutput>(options.preview, options.overwrite);
     }
     WrittenGrid written;
-    tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
+    tbb::task_arena arena(count_threads(options.threads));
     arena.execute([&] { written = GridWriter(tin, crs, grid, target, options).write(output.path()); });
     if (preview) {
         write_preview(output.path(), preview->path(), preview->target(), choose_z_factor(tin));

@@ -2,10 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
-#include <iomanip>
 #include <limits>
-#include <locale>
-#include <sstream>
 #include <string>
 #include <utility>
 
@@ -14,6 +11,8 @@
 #include <tbb/task_arena.h>
 
 #include "tinwright/delaunay/delaunay.hpp"
+#include "tinwright/geometry/decimal.hpp"
+#include "tinwright/geometry/threads.hpp"
 
 namespace tinwright {
 
@@ -40,13 +39,7 @@ void check_options(const TriangulateOptions& options) {
     }
 }
 
-std::string text_of(const Tin& tin, VertexId v) {
-    const Point3 p = tin.position(v);
-    std::ostringstream text;
-    text.imbue(std::locale::classic());
-    text << std::setprecision(15) << '(' << p.x << ", " << p.y << ')';
-    return text.str();
-}
+std::string text_of(const Tin& tin, VertexId v) { return location_text(tin.lattice.position(tin.key(v))); }
 
 struct HullAndDetail {
     std::size_t hull_vertices = 0;
@@ -165,7 +158,7 @@ Triangulated triangulate_here(std::span<const Point3> samples, const Triangulate
 
 Triangulated triangulate(std::span<const Point3> samples, const TriangulateOptions& options) {
     check_options(options);
-    tbb::task_arena arena(options.threads == 0 ? tbb::task_arena::automatic : options.threads);
+    tbb::task_arena arena(count_threads(options.threads));
     return arena.execute([&] { return triangulate_here(samples, options); });
 }
 

@@ -1,8 +1,6 @@
 #include "tinwright/surface/grid.hpp"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -17,13 +15,7 @@ namespace {
 
 constexpr double kMostCells = 2147483647;  // columns or rows: what GDAL counts with
 
-std::string number(double value) {
-    std::array<char, 64> text{};
-    const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
-    return {text.data(), end};
-}
-
-std::string pair(double x, double y) { return number(x) + " by " + number(y); }
+std::string pair(double x, double y) { return decimal_text(x) + " by " + decimal_text(y); }
 
 /// Decimal numbers as whole steps of the finest digit among them.
 struct Steps {
@@ -105,8 +97,8 @@ Box choose_extent(const Tin& tin, const GridRequest& request) {
     const bool is_finite = std::isfinite(extent.x_min) && std::isfinite(extent.y_min) &&
                            std::isfinite(extent.x_max) && std::isfinite(extent.y_max);
     if (!is_finite || !(extent.x_min < extent.x_max) || !(extent.y_min < extent.y_max)) {
-        throw UsageError("--extent " + number(extent.x_min) + " " + number(extent.y_min) + " " +
-                         number(extent.x_max) + " " + number(extent.y_max) +
+        throw UsageError("--extent " + decimal_text(extent.x_min) + " " + decimal_text(extent.y_min) + " " +
+                         decimal_text(extent.x_max) + " " + decimal_text(extent.y_max) +
                          " is empty; give xmin ymin xmax ymax with xmin < xmax and ymin < ymax");
     }
     return extent;
@@ -116,7 +108,8 @@ void check_request(const GridRequest& request) {
     if (request.resolution) {
         const auto [x, y] = *request.resolution;
         if (!(std::isfinite(x) && std::isfinite(y) && x > 0 && y > 0)) {
-            throw UsageError("--resolution " + number(x) + " " + number(y) + " must be greater than zero");
+            throw UsageError("--resolution " + decimal_text(x) + " " + decimal_text(y) +
+                             " must be greater than zero");
         }
     }
     if (request.size && (request.size->columns < 1 || request.size->rows < 1)) {
@@ -171,7 +164,7 @@ GridGeometry choose_grid(const Tin& tin, const GridRequest& request) {
         const auto asked_rows = static_cast<double>(request.size->rows);
         const bool is_free = !request.resolution || (!request.extent && !request.align_to_resolution);
         if (!is_free && (asked_columns != columns || asked_rows != rows)) {
-            throw UsageError("--size " + number(asked_columns) + " " + number(asked_rows) +
+            throw UsageError("--size " + decimal_text(asked_columns) + " " + decimal_text(asked_rows) +
                              " contradicts --extent and --resolution, which make " + pair(columns, rows) +
                              " cells; drop one of the three");
         }

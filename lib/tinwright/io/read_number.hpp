@@ -1,5 +1,5 @@
-#ifndef TINWRIGHT_IO_DECIMAL_HPP
-#define TINWRIGHT_IO_DECIMAL_HPP
+#ifndef TINWRIGHT_IO_READ_NUMBER_HPP
+#define TINWRIGHT_IO_READ_NUMBER_HPP
 
 #include <array>
 #include <cstddef>

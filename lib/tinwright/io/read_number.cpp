@@ -1,4 +1,4 @@
-#include "tinwright/io/decimal.hpp"
+#include "tinwright/io/read_number.hpp"
 
 #include <algorithm>
 #include <charconv>

@@ -1,4 +1,4 @@
-#include "tinwright/io/decimal.hpp"
+#include "tinwright/io/read_number.hpp"
 
 #include <bit>
 #include <cmath>
@@ -42,7 +42,7 @@ std::string random_decimal(std::mt19937_64& random) {
 
 }  // namespace
 
-TEST_SUITE("io/decimal") {
+TEST_SUITE("io/read_number") {
     TEST_CASE("both ways read what strtod reads, bit for bit") {
         constexpr unsigned seed = 20240611;
         CAPTURE(seed);
