@@ -38,6 +38,11 @@ std::string key_of(FaceDefect defect) {
     return {};
 }
 
+/// Which way round is right was found from most faces, so "clockwise" would be wrong half the time.
+std::string words_of(FaceDefect defect) {
+    return defect == FaceDefect::Clockwise ? "corners the other way round" : std::string(text_of(defect));
+}
+
 JsonValue violation_json(const CheckedSurface& surface, const FaceViolation& violation) {
     const Point3& at = violation.location;
     JsonValue json = JsonValue::object();
@@ -59,7 +64,7 @@ std::string violation_lines(const CheckedSurface& surface) {
     for (const FaceViolation& violation : surface.report.violations) {
         const Point3& at = violation.location;
         lines += surface.file + ": face " + std::to_string(surface.face_ids[violation.face]) + ": " +
-                 std::string(text_of(violation.defect));
+                 words_of(violation.defect);
         if (violation.other != FaceViolation::kNoFace) {
             lines += ", with face " + std::to_string(surface.face_ids[violation.other]);
         }

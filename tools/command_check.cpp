@@ -13,6 +13,20 @@ namespace tinwright::tools {
 
 namespace {
 
+/// Formats differ in the way round that a ring has (Shapefiles: clockwise), so it is the faces unlike most
+/// others that are wrong.
+FaceCheckReport check_either_way_round(io::TinFile& file) {
+    FaceCheckReport report = check_faces(file.vertices, file.corners);
+    if (report.count(FaceDefect::Clockwise) == 0) {
+        return report;
+    }
+    for (std::size_t i = 0; i + 2 < file.corners.size(); i += 3) {
+        std::swap(file.corners[i + 1], file.corners[i + 2]);
+    }
+    FaceCheckReport turned = check_faces(file.vertices, file.corners);
+    return turned.count(FaceDefect::Clockwise) < report.count(FaceDefect::Clockwise) ? turned : report;
+}
+
 CheckedSurface check_surface(const io::Source& source, Console& console, double begin, double end) {
     const double middle = begin + (end - begin) / 2;
     io::TinFile file = io::read_tin_file(source, console.progress().stage(begin, middle));
@@ -21,7 +35,7 @@ CheckedSurface check_surface(const io::Source& source, Console& console, double 
     surface.layer = std::move(file.layer);
     surface.crs = file.crs;
     surface.vertices = file.vertices.size();
-    surface.report = check_faces(file.vertices, file.corners);
+    surface.report = check_either_way_round(file);
     surface.face_ids = std::move(file.face_ids);
     report_progress(console.progress().stage(middle, end), 1);
     return surface;

@@ -91,8 +91,8 @@ Outcome CommandGrid::run() {
     refuse_to_overwrite_sources(output.path, sources.sources);
     refuse_to_overwrite_sources(raster.preview, sources.sources);
     io::WriteGridOptions options = write_options();
-    io::check_grid_target(output.path, options);
     check_output_place(output.path, output.overwrite);
+    io::check_grid_target(output.path, options);
     check_output_place(raster.preview, output.overwrite);
     io::Crs like_crs;
     std::optional<GridGeometry> like;

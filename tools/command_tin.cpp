@@ -68,8 +68,8 @@ Outcome CommandTin::run() {
     Console console("tin", talk);
     refuse_to_overwrite_sources(output.path, sources.sources);
     io::WriteTinOptions options = write_options();
-    io::check_tin_target(output.path, options);
     check_output_place(output.path, output.overwrite);
+    io::check_tin_target(output.path, options);
 
     const SurfaceRequest request{sources, crs, triangulation, keep_ids, 0.7};
     Surface surface = triangulate_sources(request, console);

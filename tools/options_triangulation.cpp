@@ -1,6 +1,9 @@
 #include "options_triangulation.hpp"
 
+#include <algorithm>
+#include <cstdint>
 #include <string_view>
+#include <thread>
 #include <utility>
 
 #include "option_values.hpp"
@@ -61,7 +64,11 @@ void TriangulationOptions::finish(DomainRule::Kind default_domain, DuplicatePoli
                              io::quoted(tolerance_text));
         }
     }
-    threads = threads_text.empty() ? 0 : static_cast<int>(whole_value("--threads", threads_text, 0));
+    if (!threads_text.empty()) {
+        // More threads than processors gain nothing and make oneTBB complain.
+        const auto processors = static_cast<std::int64_t>(std::max(1U, std::thread::hardware_concurrency()));
+        threads = static_cast<int>(std::min(whole_value("--threads", threads_text, 0), processors));
+    }
 }
 
 std::string TriangulationOptions::option_for_samples_only() const {
