@@ -5,11 +5,10 @@
 
 #include <ogrsf_frmts.h>
 
+#include "tinwright/geometry/decimal.hpp"
 #include "tinwright/io/atomic_output.hpp"
 #include "tinwright/io/tin_dataset.hpp"
 #include "tinwright/io/tin_drivers.hpp"
-
-#include "option_values.hpp"
 
 namespace tinwright::tools {
 
@@ -68,9 +67,9 @@ std::string violation_lines(const CheckedSurface& surface) {
         if (violation.other != FaceViolation::kNoFace) {
             lines += ", with face " + std::to_string(surface.face_ids[violation.other]);
         }
-        lines += " at (" + number_text(at.x) + ", " + number_text(at.y) + ")";
+        lines += " at " + location_text({at.x, at.y});
         if (violation.defect == FaceDefect::Crack) {
-            lines += ", z " + number_text(at.z) + " and " + number_text(violation.other_z);
+            lines += ", z " + decimal_text(at.z) + " and " + decimal_text(violation.other_z);
         }
         lines += "\n";
     }

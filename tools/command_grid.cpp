@@ -1,5 +1,7 @@
 #include "command_grid.hpp"
 
+#include "tinwright/geometry/decimal.hpp"
+
 #include "console.hpp"
 #include "job_report.hpp"
 #include "option_values.hpp"
@@ -24,8 +26,8 @@ io::TinMetadata raster_metadata(const Surface& surface, const CommandGrid& comma
     }
     std::string options = metadata_value(surface.metadata, "TINWRIGHT_OPTIONS");
     if (command.triangulation.max_edge) {
-        options +=
-            (options.empty() ? "--max-edge " : " --max-edge ") + number_text(*command.triangulation.max_edge);
+        options += (options.empty() ? "--max-edge " : " --max-edge ") +
+                   decimal_text(*command.triangulation.max_edge);
     }
     metadata.emplace_back("TINWRIGHT_OPTIONS", options.empty() ? method : options + " " + method);
     return metadata;

@@ -6,7 +6,7 @@
 
 #include <sys/resource.h>
 
-#include "option_values.hpp"
+#include "tinwright/geometry/decimal.hpp"
 
 namespace tinwright::tools {
 
@@ -99,8 +99,8 @@ std::string duplicates_line(const JobReport& report, const DuplicateReport& dupl
 std::string conflict_lines(const DuplicateReport& duplicates) {
     std::string lines;
     for (const DuplicateConflict& conflict : duplicates.first) {
-        lines += "    at (" + number_text(conflict.location.x) + ", " + number_text(conflict.location.y) +
-                 "): z from " + number_text(conflict.z_min) + " to " + number_text(conflict.z_max) + "\n";
+        lines += "    at (" + decimal_text(conflict.location.x) + ", " + decimal_text(conflict.location.y) +
+                 "): z from " + decimal_text(conflict.z_min) + " to " + decimal_text(conflict.z_max) + "\n";
     }
     return lines;
 }
@@ -137,12 +137,12 @@ std::string raster_line(const RasterReport& raster) {
     }
     return std::to_string(grid.columns) + " x " + std::to_string(grid.rows) + " cells of " + size +
            (raster.is_resolution_chosen ? " (chosen from the sample spacing)" : "") + ", " + fixed(share, 1) +
-           " % with a value, nodata " + number_text(raster.written.nodata);
+           " % with a value, nodata " + decimal_text(raster.written.nodata);
 }
 
 std::string quantum_line(const Lattice& lattice) {
     if (lattice.decimals() >= 0) {
-        return number_text(lattice.quantum());
+        return decimal_text(lattice.quantum());
     }
     char text[48];
     std::snprintf(text, sizeof text, "2^%d, about %.1e", lattice.exponent(), lattice.quantum());
@@ -235,8 +235,8 @@ std::string report_text(const JobReport& report, const Surface& surface, const R
     };
     add("CRS", crs_line(surface));
     const Box bounds = bounds_of(surface);
-    add("extent", number_text(bounds.x_min) + " " + number_text(bounds.y_min) + " " +
-                      number_text(bounds.x_max) + " " + number_text(bounds.y_max));
+    add("extent", decimal_text(bounds.x_min) + " " + decimal_text(bounds.y_min) + " " +
+                      decimal_text(bounds.x_max) + " " + decimal_text(bounds.y_max));
     add("quantum", quantum_line(surface.tin.lattice));
     if (surface.report && surface.report->duplicates.equal + surface.report->duplicates.conflicting > 0) {
         add("duplicates", duplicates_line(report, surface.report->duplicates));

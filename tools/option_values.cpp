@@ -1,6 +1,5 @@
 #include "option_values.hpp"
 
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -51,20 +50,6 @@ std::int64_t whole_value(std::string_view option, const std::string& text, std::
         refuse(option, "a whole number from " + std::to_string(least) + " up", text);
     }
     return value;
-}
-
-std::string number_text(double value) {
-    std::array<char, 32> buffer{};
-    const auto [end, error] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
-    std::string text(buffer.data(), error == std::errc() ? end : buffer.data());
-    // "6.7e+06" is shorter than "6700000", but nobody writes coordinates like that.
-    if (text.find('e') != std::string::npos && std::abs(value) >= 1e-6 && std::abs(value) < 1e15) {
-        std::array<char, 64> plain{};
-        const auto fixed =
-            std::to_chars(plain.data(), plain.data() + plain.size(), value, std::chars_format::fixed);
-        text.assign(plain.data(), fixed.ptr);
-    }
-    return text;
 }
 
 }  // namespace tinwright::tools

@@ -24,9 +24,6 @@ double positive_value(std::string_view option, const std::string& text);
 /// A whole number from `least` to 2^31 - 1.
 std::int64_t whole_value(std::string_view option, const std::string& text, std::int64_t least);
 
-/// The shortest decimal text that reads back as the same number.
-std::string number_text(double value);
-
 /// The entry of `choices` named `text`.
 template <class Value, std::size_t N>
 Value choice_value(std::string_view option, const std::string& text,

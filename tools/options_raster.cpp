@@ -3,6 +3,8 @@
 #include <string_view>
 #include <utility>
 
+#include "tinwright/geometry/decimal.hpp"
+
 #include "option_values.hpp"
 
 namespace tinwright::tools {
@@ -19,8 +21,8 @@ Box parse_extent(const std::vector<std::string>& texts) {
     box.y_max = number_value("--extent", texts[3]);
     if (!(box.x_min < box.x_max && box.y_min < box.y_max)) {
         throw UsageError("--extent takes XMIN YMIN XMAX YMAX with XMIN below XMAX and YMIN below YMAX, not " +
-                         number_text(box.x_min) + " " + number_text(box.y_min) + " " +
-                         number_text(box.x_max) + " " + number_text(box.y_max));
+                         decimal_text(box.x_min) + " " + decimal_text(box.y_min) + " " +
+                         decimal_text(box.x_max) + " " + decimal_text(box.y_max));
     }
     return box;
 }

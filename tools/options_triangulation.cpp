@@ -1,10 +1,9 @@
 #include "options_triangulation.hpp"
 
-#include <algorithm>
-#include <cstdint>
 #include <string_view>
-#include <thread>
 #include <utility>
+
+#include "tinwright/geometry/decimal.hpp"
 
 #include "option_values.hpp"
 
@@ -64,11 +63,7 @@ void TriangulationOptions::finish(DomainRule::Kind default_domain, DuplicatePoli
                              io::quoted(tolerance_text));
         }
     }
-    if (!threads_text.empty()) {
-        // More threads than processors gain nothing and make oneTBB complain.
-        const auto processors = static_cast<std::int64_t>(std::max(1U, std::thread::hardware_concurrency()));
-        threads = static_cast<int>(std::min(whole_value("--threads", threads_text, 0), processors));
-    }
+    threads = threads_text.empty() ? 0 : static_cast<int>(whole_value("--threads", threads_text, 0));
 }
 
 std::string TriangulationOptions::option_for_samples_only() const {
@@ -98,7 +93,7 @@ std::string TriangulationOptions::domain_name() const {
         case DomainRule::Kind::Trimmed:
             return "trimmed";
         case DomainRule::Kind::Concave:
-            return "concave:" + number_text(domain.length);
+            return "concave:" + decimal_text(domain.length);
     }
     return {};
 }
@@ -108,11 +103,11 @@ std::string TriangulationOptions::policy_name() const { return choice_name(dupli
 std::string TriangulationOptions::canonical() const {
     std::string text = "--criterion " + criterion + " --domain " + domain_name();
     if (max_edge) {
-        text += " --max-edge " + number_text(*max_edge);
+        text += " --max-edge " + decimal_text(*max_edge);
     }
     text += " --duplicates " + policy_name();
     if (duplicates.tolerance > 0) {
-        text += " --duplicate-tolerance " + number_text(duplicates.tolerance);
+        text += " --duplicate-tolerance " + decimal_text(duplicates.tolerance);
     }
     return text;
 }

@@ -22,7 +22,7 @@ struct TriangulationOptions {
     DuplicateOptions duplicates;
     DomainRule domain;
     std::optional<double> max_edge;
-    int threads = 0;  ///< 0: all processors; never more than there are
+    int threads = 0;  ///< 0: all processors
 
     /// `default_domain` is for the help text.
     void add_to(CLI::App& parser, const std::string& default_domain);

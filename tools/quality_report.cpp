@@ -5,9 +5,8 @@
 #include <cstdio>
 #include <utility>
 
+#include "tinwright/geometry/decimal.hpp"
 #include "tinwright/io/gdal_session.hpp"
-
-#include "option_values.hpp"
 
 namespace tinwright::tools {
 
@@ -75,7 +74,7 @@ std::string histogram_lines(const Histogram& histogram, const char* unit) {
     for (std::size_t i = first; i < last; ++i) {
         char line[96];
         const std::string range =
-            number_text(histogram.bounds[i]) + " to " + number_text(histogram.bounds[i + 1]);
+            decimal_text(histogram.bounds[i]) + " to " + decimal_text(histogram.bounds[i + 1]);
         std::snprintf(line, sizeof line, "    %16s%s %10zu", range.c_str(), unit, histogram.counts[i]);
         const std::size_t bar = (histogram.counts[i] * kBar + most - 1) / most;
         lines += line + (bar == 0 ? std::string() : " " + std::string(bar, '#')) + "\n";
@@ -88,8 +87,8 @@ std::string worst_lines(const Tin& tin, const MeasureSummary& summary, const cha
     for (const FaceValue& face : summary.worst) {
         lines += "      " + short_number(face.value) + unit + " at";
         for (const Point3& corner : corners_of(tin, face.face)) {
-            lines += " (" + number_text(corner.x) + " " + number_text(corner.y) + " " +
-                     number_text(corner.z) + ")";
+            lines += " (" + decimal_text(corner.x) + " " + decimal_text(corner.y) + " " +
+                     decimal_text(corner.z) + ")";
         }
         lines += face.is_on_border ? ", on the border\n" : "\n";
     }
@@ -121,7 +120,7 @@ std::string content_text(const Surface& surface) {
     }
     if (surface.tin.vertex_count() > 0) {
         const auto [low, high] = z_range(surface.tin);
-        text += "  z           " + number_text(low) + " to " + number_text(high) + "\n";
+        text += "  z           " + decimal_text(low) + " to " + decimal_text(high) + "\n";
     }
     for (const auto& [key, value] : surface.metadata) {
         text += "  " + key + " = " + value + "\n";

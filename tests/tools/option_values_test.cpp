@@ -38,13 +38,4 @@ TEST_SUITE("tools/option_values") {
         CHECK_THROWS_WITH_AS(choice_value("--x", "d", kChoices), "--x takes a, b or c, not \"d\"",
                              UsageError);
     }
-
-    TEST_CASE("numbers are written as people write coordinates") {
-        CHECK(number_text(6700000) == "6700000");
-        CHECK(number_text(0.001) == "0.001");
-        CHECK(number_text(-0.5) == "-0.5");
-        CHECK(number_text(21530181.544) == "21530181.544");
-        CHECK(number_text(1e-9) == "1e-09");
-        CHECK(number_text(1e20) == "1e+20");
-    }
 }

@@ -97,10 +97,10 @@ TEST_SUITE("tools/setup") {
     TEST_CASE("domains, policies and tolerances are read and written back canonically") {
         CommandTin tin;
         tin.setup({"a.csv", "-o", "b.gpkg", "--duplicate-tolerance", "0.010", "--max-edge", "8e1", "--domain",
-                   "concave:50.0", "--duplicates", "mean", "-j", "1", "-v"});
+                   "concave:50.0", "--duplicates", "mean", "-j", "3", "-v"});
         CHECK(tin.triangulation.domain.kind == DomainRule::Kind::Concave);
         CHECK(tin.triangulation.domain.length == 50);
-        CHECK(tin.triangulation.threads == 1);
+        CHECK(tin.triangulation.threads == 3);
         CHECK(tin.triangulation.canonical() ==
               "--criterion delaunay --domain concave:50 --max-edge 80 --duplicates mean "
               "--duplicate-tolerance 0.01");
