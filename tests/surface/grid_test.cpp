@@ -110,7 +110,8 @@ TEST_SUITE("surface/grid") {
               "--size 5 5 contradicts --extent and --resolution, which make 10 by 10 cells; drop one of the "
               "three");
         CHECK(message_of(tin, {.resolution = Point2{1e-12, 1}}) ==
-              "a resolution of 1e-12 by 1 makes a raster of 1e+12 by 1 cells, more than 2147483647 a side; "
+              "a resolution of 1e-12 by 1 makes a raster of 1000000000000 by 1 cells, more than 2147483647 a "
+              "side; "
               "give a coarser --resolution or a smaller --extent");
     }
 }
