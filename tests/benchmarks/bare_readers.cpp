@@ -29,6 +29,7 @@ std::vector<Point3> read_text_barely(const std::string& path) {
     }
     close(file);
     std::vector<Point3> points;
+    points.reserve(size / std::strlen("0 0 0\n"));  // costs nothing until it is filled
     const char* at = text.get();
     const char* const end = at + size;
     while (at < end) {
@@ -50,6 +51,7 @@ std::vector<Point3> read_arrow_barely(const std::string& path) {
         throw std::runtime_error("cannot read " + path);
     }
     std::vector<Point3> points;
+    points.reserve(static_cast<std::size_t>(layer->GetFeatureCount()));
     for (ArrowArray batch{}; stream.get_next(&stream, &batch) == 0 && batch.release != nullptr;
          batch.release(&batch)) {
         const ArrowArray& geometries = *batch.children[batch.n_children - 1];  // the last column

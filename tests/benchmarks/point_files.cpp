@@ -73,7 +73,8 @@ Points scan_points(std::size_t count) {
     Random random(3);
     Points points = tinwright_tests::scan_samples(random, count);
     for (Point3& p : points) {
-        p.z = elevation(p.x, p.y);
+        const double noise = 0.12 * random.real() - 0.06;
+        p.z = std::round(100 * (elevation(p.x, p.y) + noise)) / 100;
     }
     return points;
 }
