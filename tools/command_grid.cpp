@@ -102,7 +102,8 @@ Outcome CommandGrid::run() {
         like = io::read_grid_geometry(raster.like, &like_crs);
     }
 
-    const SurfaceRequest request{sources, crs, triangulation, false, 0.6};
+    const SurfaceRequest request{
+        .sources = sources, .crs = crs, .triangulation = triangulation, .progress_end = 0.6};
     const bool is_tin = is_existing_tin(request);
     const Surface surface =
         is_tin ? read_existing_tin(request, console) : triangulate_sources(request, console);

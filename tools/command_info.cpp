@@ -29,7 +29,7 @@ void CommandInfo::setup(const std::vector<std::string>& arguments) {
 
 Outcome CommandInfo::run() {
     Console console("info", talk);
-    const SurfaceRequest request{sources, crs, triangulation};
+    const SurfaceRequest request{.sources = sources, .crs = crs, .triangulation = triangulation};
     const bool is_tin = is_existing_tin(request);
     const Surface surface =
         is_tin ? read_existing_tin(request, console) : triangulate_sources(request, console);

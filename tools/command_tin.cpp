@@ -71,7 +71,12 @@ Outcome CommandTin::run() {
     check_output_place(output.path, output.overwrite);
     io::check_tin_target(output.path, options);
 
-    const SurfaceRequest request{sources, crs, triangulation, keep_ids, 0.7};
+    const SurfaceRequest request{.sources = sources,
+                                 .crs = crs,
+                                 .triangulation = triangulation,
+                                 .keep_origins = true,
+                                 .keep_ids = keep_ids,
+                                 .progress_end = 0.7};
     Surface surface = triangulate_sources(request, console);
     options.origins = std::move(surface.origins);
     options.progress = console.progress().stage(0.7, 1);

@@ -23,6 +23,10 @@ std::size_t count_constrained_edges(const TriangleMesh& mesh) {
     return edges;
 }
 
+std::int64_t count_steiner_vertices(const Tin& tin) {
+    return std::count(tin.sample.begin(), tin.sample.end(), Tin::kNoSample);
+}
+
 Box bounds_of(const Surface& surface) {
     return surface.report ? surface.report->bounds : surface.tin.bounds();
 }
@@ -211,7 +215,8 @@ JsonValue make_json(const JobReport& report, const Surface& surface) {
     }
     json.set("constrained_edges", count_constrained_edges(surface.tin.mesh));
     if (surface.report) {
-        json.set("steiner_vertices", 0).set("conflicts", 0);
+        json.set("steiner_vertices", count_steiner_vertices(surface.tin));
+        json.set("conflicts", 0);  // points alone have none; lines would
     }
     if (!report.criterion.empty()) {
         json.set("criterion", JsonValue::object().set("name", report.criterion));

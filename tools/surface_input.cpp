@@ -108,14 +108,16 @@ Surface triangulate_sources(const SurfaceRequest& request, Console& console) {
         samples,
         request.triangulation.library_options(console.progress().stage(middle, request.progress_end)));
     Surface surface;
-    surface.origins = make_vertex_origins(made.tin, samples.slices, request.keep_ids);
+    if (request.keep_origins) {
+        surface.origins = make_vertex_origins(made.tin, samples.slices, request.keep_ids);
+    }
     surface.tin = std::move(made.tin);
     surface.report = std::move(made.report);
     surface.crs = samples.crs;
     surface.z_unit = samples.z_unit;
     surface.slices = std::move(samples.slices);
     for (io::SampleSlice& slice : surface.slices) {
-        slice.ids = {};  // the origins have what is kept of them
+        slice.ids = {};  // the origins have what is wanted of them
     }
     surface.read_seconds = samples.seconds;
     return surface;

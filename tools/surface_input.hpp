@@ -37,7 +37,8 @@ struct SurfaceRequest {
     const SourceOptions& sources;
     const CrsOptions& crs;
     const TriangulationOptions& triangulation;
-    bool keep_ids = false;  ///< ids of text rows and raster cells too
+    bool keep_origins = false;  ///< the surface is to know its vertices' sources
+    bool keep_ids = false;      ///< with the ids of text rows and raster cells too
     double progress_end = 1;
 };
 
