@@ -17,8 +17,8 @@ using Points = std::vector<tinwright::Point3>;
 Points uniform_points(std::size_t count);
 /// Uniform in a square of 4000 m, to the millimetre.
 Points survey_points(std::size_t count);
-/// Air-borne scan rows in UTM metres, x, y and z to the centimetre, in the order they were flown; z is off the
-/// terrain by up to 6 cm, as such measurements are.
+/// Air-borne scan rows in UTM metres, x, y and z to the centimetre, in the order they were flown; z is off
+/// the terrain by up to 6 cm, as such measurements are.
 Points scan_points(std::size_t count);
 /// `side` by `side` whole numbers, row by row or in random order.
 Points grid_points(int side, bool is_shuffled);
