@@ -8,8 +8,8 @@
 #   ? status       the exit status expected of the last command, default 0
 #   > line         a line expected on standard output
 #   ! line         a line expected on standard error
-# Everything else is a comment. Expected texts are written by hand from the manual and the rules of errors;
-# numbers in them are computed by hand where a comment says so.
+# Everything else is a comment. Expected lines were recorded from a run and then read against the manual and
+# the rules for messages; values of surfaces follow from the data, as the comments in the files say.
 set -u
 file=$1 name=$2 tools=$3 scratch=$4
 export PATH="$tools:$PATH" LC_ALL=C
