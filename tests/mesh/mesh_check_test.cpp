@@ -81,7 +81,7 @@ TEST_SUITE("mesh/mesh_check") {
 
     TEST_CASE("M7: two edges between the same vertices in one turn are found") {
         // Vertices 0 and 1 joined by two edges, with vertex 2 between these and vertex 3 beyond them.
-        TriangleMesh::Faces faces(4);
+        TriangleMesh::Faces faces(4, Face{});
         faces[0].vertex = {{{0}, {1}, {2}}};
         faces[1].vertex = {{{1}, {0}, {2}}};
         faces[2].vertex = {{{1}, {0}, {3}}};

@@ -84,6 +84,12 @@ class Builder {
 
     [[nodiscard]] Index vertex(Index face, Index corner) const { return face_[face].vertex[corner].value; }
     [[nodiscard]] Index twin(Index h) const { return face_[h >> 2U].twin[h & 3U].value; }
+    // Fills a slot for the first time.
+    void make_face(Index face, Index a, Index b, Index c) {
+        set_face(face, a, b, c);
+        face_[face].marks = 0;
+        face_[face].spare = 0;
+    }
     void set_face(Index face, Index a, Index b, Index c) { face_[face].vertex = {{{a}, {b}, {c}}}; }
     void set_twin(Index h, Index other) { face_[h >> 2U].twin[h & 3U].value = other; }
     void link(Index h, Index g) {
@@ -124,8 +130,8 @@ class Builder {
         const Index b = a + 1;
         const Index there = 2 * a;
         const Index back = there + 1;
-        set_face(there, b, a, kGhost);
-        set_face(back, a, b, kGhost);
+        make_face(there, b, a, kGhost);
+        make_face(back, a, b, kGhost);
         link(half_edge_of(there, 0), half_edge_of(back, 0));
         link(half_edge_of(there, 1), half_edge_of(back, 2));
         link(half_edge_of(there, 2), half_edge_of(back, 1));
@@ -137,12 +143,12 @@ class Builder {
     // Three vertices of a range, in counter-clockwise order; `a` is the first of the range.
     Extremes make_triangle(Index a, Index b, Index c) {
         const Index inner = 2 * a;
-        set_face(inner, a, b, c);
+        make_face(inner, a, b, c);
         const Index corners[] = {a, b, c};
         for (Index i = 0; i < 3; ++i) {
             const Index ghost = inner + 1 + i;
             const Index next_ghost = inner + 1 + (i + 1) % 3;
-            set_face(ghost, corners[(i + 1) % 3], corners[i], kGhost);
+            make_face(ghost, corners[(i + 1) % 3], corners[i], kGhost);
             link(half_edge_of(inner, i), half_edge_of(ghost, 0));
             link(half_edge_of(ghost, 2), half_edge_of(next_ghost, 1));
             hull_face_[corners[i]] = ghost;
@@ -180,7 +186,7 @@ class Builder {
         // The edge u w with a ghost face on its outer side, and one that rides on the base.
         const Index outer = 2 * middle - 2;
         const Index rider = outer + 1;
-        set_face(outer, w, u, kGhost);
+        make_face(outer, w, u, kGhost);
         hull_face_[u] = outer;
         Index left_link = half_edge_of(outer, 1);
         Index right_link = half_edge_of(outer, 2);
@@ -194,7 +200,7 @@ class Builder {
         }
         const Base top = raise({u, w, half_edge_of(outer, 0), left_link, right_link}, u_is_alone, w_is_alone);
 
-        set_face(rider, top.u, top.w, kGhost);
+        make_face(rider, top.u, top.w, kGhost);
         link(half_edge_of(rider, 0), top.below);
         link(half_edge_of(rider, 1), top.right_link);
         link(half_edge_of(rider, 2), top.left_link);

@@ -36,16 +36,14 @@ Bits spread(Bits value) {
 void sort_digits(Bits* words, Bits* other, std::size_t count, bool in_place) {
     constexpr std::size_t kSmall = 32;
     if (count <= kSmall) {
-        for (std::size_t i = 1; i < count; ++i) {
+        Bits* const sorted = in_place ? words : other;
+        for (std::size_t i = 0; i < count; ++i) {
             const Bits word = words[i];
             std::size_t hole = i;
-            for (; hole > 0 && word < words[hole - 1]; --hole) {
-                words[hole] = words[hole - 1];
+            for (; hole > 0 && word < sorted[hole - 1]; --hole) {
+                sorted[hole] = sorted[hole - 1];
             }
-            words[hole] = word;
-        }
-        if (!in_place) {
-            std::copy_n(words, count, other);
+            sorted[hole] = word;
         }
         return;
     }

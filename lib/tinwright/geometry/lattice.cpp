@@ -67,15 +67,17 @@ Survey survey_range(std::span<const Point3> samples, std::size_t begin, std::siz
     double power = kPowersOfTen[static_cast<std::size_t>(std::min(decimals, kMostDecimals))];
     for (std::size_t i = begin; i != end; ++i) {
         const Point3& p = samples[i];
-        if (!is_finite(p)) {
-            seen.first_bad = std::min(seen.first_bad, i);
-            continue;
-        }
-        bounds.add(p.x, p.y);
-        if (decimals <= kMostDecimals && !(is_decimal(p.x, power) && is_decimal(p.y, power))) {
+        // What is a decimal is finite.
+        const bool is_plain = is_decimal(p.x, power) && is_decimal(p.y, power) && std::isfinite(p.z);
+        if (!is_plain) {
+            if (!is_finite(p)) {
+                seen.first_bad = std::min(seen.first_bad, i);
+                continue;
+            }
             decimals = raise_decimals(decimals, p);
             power = kPowersOfTen[static_cast<std::size_t>(std::min(decimals, kMostDecimals))];
         }
+        bounds.add(p.x, p.y);
     }
     seen.bounds = bounds;
     seen.decimals = decimals;
@@ -173,10 +175,9 @@ FoundLattice find_lattice(std::span<const Point3> samples) {
         const double steps = widest(bounds, [&](double v) { return Lattice::nearest_integer(v * power); });
         if (steps >= kKeyLimit) {
             const auto text = [](double v) { return std::to_string(static_cast<long long>(v)); };
-            throw InputError("the samples' coordinates have " + std::to_string(seen.decimals) +
-                             " decimals over an extent of " + text(steps) +
-                             " steps of the last one, above the limit of 2^45 = " + text(kKeyLimit) +
-                             "; remove outlying samples or round the coordinates");
+            throw InputError("the samples span " + text(steps) + " steps of their last decimal, " +
+                             decimal_text(plain.quantum()) + ", above the limit of 2^45 = " +
+                             text(kKeyLimit) + "; remove outlying samples or round the coordinates");
         }
         return {Lattice::decimal(seen.decimals, plain.key({bounds.x_min, bounds.y_min})), bounds};
     }

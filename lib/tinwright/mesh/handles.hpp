@@ -6,10 +6,11 @@
 
 namespace tinwright {
 
-/// An index that knows what it counts. 32 bits: meshes hold up to 2^29 vertices.
+/// An index that knows what it counts. 32 bits: meshes hold up to 2^29 vertices. Zero when made with braces,
+/// like an integer; arrays of them need not be cleared before they are filled.
 template <class Tag>
 struct Handle {
-    std::uint32_t value = 0;
+    std::uint32_t value;
     friend auto operator<=>(const Handle&, const Handle&) = default;
 };
 

@@ -28,7 +28,7 @@ TriangleMesh::Faces make_unlinked_faces(std::size_t vertex_count, std::span<cons
         throw InputError("too many faces or vertices for one mesh: " + std::to_string(corners.size() / 3) +
                          " faces, " + std::to_string(vertex_count) + " vertices");
     }
-    TriangleMesh::Faces faces(corners.size() / 3);
+    TriangleMesh::Faces faces(corners.size() / 3, Face{});
     for (std::size_t f = 0; f < faces.size(); ++f) {
         for (std::size_t i = 0; i < 3; ++i) {
             const VertexId v = corners[3 * f + i];
@@ -129,7 +129,7 @@ void add_ghosts(TriangleMesh::Faces& faces) {
             if (ghost.value >= kSlotLimit) {
                 throw InputError("too many faces for one mesh");
             }
-            Face record;
+            Face record{};
             record.vertex = {origin_of(faces, next(h)), origin_of(faces, h), kGhostVertex};
             record.twin = {h, kNoHalfEdge, kNoHalfEdge};
             twin_of(faces, h) = half_edge(ghost, 0);

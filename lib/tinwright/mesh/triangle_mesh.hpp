@@ -31,12 +31,12 @@ namespace tinwright {
 ///       is told to allow (one for a triangulation of samples)
 class TriangleMesh {
   public:
-    /// 32 bytes: half a cache line.
+    /// 32 bytes: half a cache line. Cleared only when made with braces.
     struct Face {
         std::array<VertexId, 3> vertex;
-        std::uint32_t marks = 0;
+        std::uint32_t marks;
         std::array<HalfEdgeId, 3> twin;
-        std::uint32_t spare = 0;
+        std::uint32_t spare;
     };
 
     using Faces = LargeVector<Face>;

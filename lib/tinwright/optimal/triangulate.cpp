@@ -44,7 +44,7 @@ std::string text_of(const Tin& tin, VertexId v) { return location_text(tin.latti
 struct HullAndDetail {
     std::size_t hull_vertices = 0;
     double closest = std::numeric_limits<double>::infinity();  // squared distance in keys
-    FaceId at;
+    FaceId at{};
 
     static HullAndDetail merge(const HullAndDetail& a, const HullAndDetail& b) {
         const bool is_b = b.closest < a.closest || (b.closest == a.closest && b.at < a.at);
