@@ -12,6 +12,7 @@
 #include "tinwright/geometry/error.hpp"
 
 #include "support/cases.hpp"
+#include "support/messages.hpp"
 #include "support/oracles.hpp"
 #include "support/point_sets.hpp"
 
@@ -39,12 +40,7 @@ void require_round_trip(const std::vector<Point3>& samples, const Lattice& latti
 }
 
 std::string refusal_of(const std::vector<Point3>& samples) {
-    try {
-        find_lattice(samples);
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "";
+    return message_of<InputError>([&] { find_lattice(samples); });
 }
 
 }  // namespace

@@ -14,12 +14,14 @@
 
 #include "io/tin_examples.hpp"
 #include "support/cases.hpp"
+#include "support/messages.hpp"
 #include "support/temporary_folder.hpp"
 
 using namespace tinwright;
 using namespace tinwright::io;
 using tinwright_tests::constrained_of;
 using tinwright_tests::example_tin;
+using tinwright_tests::message_of;
 using tinwright_tests::TemporaryFolder;
 using tinwright_tests::terrain_of;
 using tinwright_tests::write_bytes;
@@ -58,16 +60,6 @@ WriteTinOptions options_for(const Tin& tin, Geometry geometry = Geometry::Polygo
 }
 
 Source source_of(const std::string& text) { return parse_source(text); }
-
-template <class Exception, class Action>
-std::string message_of(const Action& action) {
-    try {
-        action();
-    } catch (const Exception& error) {
-        return error.what();
-    }
-    return "(nothing thrown)";
-}
 
 std::string csv_of(const std::vector<std::string>& geometries) {
     std::string text = "WKT,id\n";

@@ -8,6 +8,8 @@
 
 #include "tinwright/io/read_samples.hpp"
 
+#include "support/messages.hpp"
+
 /// What the tests of the readers share: files in memory, and one-line calls.
 namespace tinwright_tests {
 
@@ -49,17 +51,6 @@ inline tinwright::io::Samples read_text(const std::string& content, const std::s
                                         const tinwright::io::ReadOptions& options = {}) {
     const MemoryFile file("t.txt", content);
     return read(file.path() + keys, options);
-}
-
-/// Message of the E that `call` throws; empty when it throws nothing.
-template <typename E, typename Call>
-std::string message_of(Call&& call) {
-    try {
-        call();
-    } catch (const E& error) {
-        return error.what();
-    }
-    return {};
 }
 
 }  // namespace tinwright_tests

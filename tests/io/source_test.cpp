@@ -4,19 +4,17 @@
 
 #include "tinwright/geometry/error.hpp"
 
+#include "support/messages.hpp"
+
 using tinwright::UsageError;
 using tinwright::io::parse_source;
 using tinwright::io::Source;
+using tinwright_tests::message_of;
 
 namespace {
 
 std::string refusal(const std::string& text) {
-    try {
-        parse_source(text);
-    } catch (const UsageError& error) {
-        return error.what();
-    }
-    return {};
+    return message_of<UsageError>([&] { parse_source(text); });
 }
 
 }  // namespace

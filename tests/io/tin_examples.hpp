@@ -7,11 +7,10 @@
 #include <utility>
 #include <vector>
 
-#include "tinwright/delaunay/delaunay.hpp"
-#include "tinwright/delaunay/sample_vertices.hpp"
 #include "tinwright/mesh/tin.hpp"
 
 #include "support/point_sets.hpp"
+#include "support/tins.hpp"
 
 namespace tinwright_tests {
 
@@ -30,15 +29,7 @@ inline tinwright::Tin example_tin(std::uint64_t seed, int count, bool is_binary 
                                static_cast<double>(random.integer(-5000, 9000)) / 1000});
         }
     }
-    DuplicateOptions duplicates;
-    duplicates.policy = DuplicatePolicy::Max;
-    SampleVertices vertices = make_sample_vertices(samples, duplicates);
-    Tin tin;
-    tin.mesh = make_delaunay(vertices.keys);
-    tin.lattice = vertices.lattice;
-    tin.keys = std::move(vertices.keys);
-    tin.z = std::move(vertices.z);
-    tin.sample = std::move(vertices.sample);
+    Tin tin = tin_of_samples(samples, DuplicatePolicy::Max);
     tin.sample[tin.sample.size() / 2] = Tin::kNoSample;
     for (std::uint32_t f = 0; f < tin.mesh.slot_count(); ++f) {
         const std::int64_t choice = random.integer(0, 19);

@@ -15,6 +15,7 @@
 #include "tinwright/io/gdal_session.hpp"
 #include "tinwright/surface/scan_conversion.hpp"
 
+#include "support/messages.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/tins.hpp"
 
@@ -100,13 +101,8 @@ void check_values(const ReadBack& back, const std::vector<double>& expected, dou
 }
 
 template <class Failure>
-std::string message_of(const Tin& tin, const std::string& path, const io::WriteGridOptions& options) {
-    try {
-        io::write_grid(tin, {}, half_metre(), path, options);
-    } catch (const Failure& failure) {
-        return failure.what();
-    }
-    return "no error";
+std::string refusal_of(const Tin& tin, const std::string& path, const io::WriteGridOptions& options) {
+    return message_of<Failure>([&] { io::write_grid(tin, {}, half_metre(), path, options); });
 }
 
 bool has_driver(const char* name) {
@@ -223,17 +219,17 @@ TEST_SUITE("io/write_grid") {
 
     TEST_CASE("values that do not fit, or are nodata, are refused with their cell") {
         const TemporaryFolder folder;
-        CHECK(message_of<InputError>(slope_tin(200, 1), folder.file("a.tif"), {.data_type = "Byte"})
+        CHECK(refusal_of<InputError>(slope_tin(200, 1), folder.file("a.tif"), {.data_type = "Byte"})
                   .ends_with(", which does not fit Byte (0 to 255); use --ot Int32 or Float32"));
-        CHECK(message_of<InputError>(slope_tin(-5, 1), folder.file("a.png"), {})
+        CHECK(refusal_of<InputError>(slope_tin(-5, 1), folder.file("a.png"), {})
                   .starts_with("the cell at column "));
         CHECK(
-            message_of<InputError>(slope_tin(0, 2.55), folder.file("a.tif"), {.data_type = "Byte"})
+            refusal_of<InputError>(slope_tin(0, 2.55), folder.file("a.tif"), {.data_type = "Byte"})
                 .starts_with("elevations from 0 to 255 leave no value of Byte for nodata; use a wider type"));
-        CHECK(message_of<InputError>(slope_tin(5, 0), folder.file("a.tif"), {.nodata = 5})
+        CHECK(refusal_of<InputError>(slope_tin(5, 0), folder.file("a.tif"), {.nodata = 5})
                   .ends_with(
                       "has the elevation 5, which stands for nodata; choose another value with --nodata"));
-        CHECK(message_of<InputError>(slope_tin(1e300, 0), folder.file("a.tif"), {}) ==
+        CHECK(refusal_of<InputError>(slope_tin(1e300, 0), folder.file("a.tif"), {}) ==
               "elevations from 1e+300 to 1e+300 do not fit Float32; use --ot Float64");
         CHECK(folder.names().empty());
     }
@@ -250,13 +246,8 @@ TEST_SUITE("io/write_grid") {
     }
 
     TEST_CASE("targets that cannot be are refused before any work") {
-        const auto usage = [](const std::string& path, const io::WriteGridOptions& options) -> std::string {
-            try {
-                io::check_grid_target(path, options);
-            } catch (const UsageError& error) {
-                return error.what();
-            }
-            return "no error";
+        const auto usage = [](const std::string& path, const io::WriteGridOptions& options) {
+            return message_of<UsageError>([&] { io::check_grid_target(path, options); });
         };
         CHECK(usage("dem", {}) ==
               "cannot tell the format of \"dem\": it has no extension; add one, such as .tif, or --of");
@@ -285,7 +276,7 @@ TEST_SUITE("io/write_grid") {
     TEST_CASE("what exists is kept unless it may be replaced") {
         const TemporaryFolder folder;
         write_bytes(folder.file("dem.tif"), "old");
-        CHECK(message_of<IoError>(slope_tin(0, 1), folder.file("dem.tif"), {}).find("--overwrite") !=
+        CHECK(refusal_of<IoError>(slope_tin(0, 1), folder.file("dem.tif"), {}).find("--overwrite") !=
               std::string::npos);
         CHECK(read_bytes(folder.file("dem.tif")) == "old");
         io::write_grid(slope_tin(0, 1), {}, half_metre(), folder.file("dem.tif"), {.overwrite = true});
@@ -296,8 +287,8 @@ TEST_SUITE("io/write_grid") {
         const TemporaryFolder folder;
         {
             const FileSizeLimit limit(8192);
-            CHECK(message_of<IoError>(slope_tin(0, 1), folder.file("dem.tif"), {}).starts_with("cannot "));
-            CHECK(message_of<IoError>(slope_tin(0, 1), folder.file("dem.asc"), {}).starts_with("cannot "));
+            CHECK(refusal_of<IoError>(slope_tin(0, 1), folder.file("dem.tif"), {}).starts_with("cannot "));
+            CHECK(refusal_of<IoError>(slope_tin(0, 1), folder.file("dem.asc"), {}).starts_with("cannot "));
         }
         CHECK(folder.names().empty());
         for (const char* const file : {"dem.tif", "dem.asc"}) {

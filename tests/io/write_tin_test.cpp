@@ -17,11 +17,13 @@
 #include "tinwright/io/gdal_session.hpp"
 
 #include "io/tin_examples.hpp"
+#include "support/messages.hpp"
 #include "support/temporary_folder.hpp"
 
 using namespace tinwright;
 using namespace tinwright::io;
 using tinwright_tests::example_tin;
+using tinwright_tests::message_of;
 using tinwright_tests::read_bytes;
 using tinwright_tests::TemporaryFolder;
 
@@ -37,16 +39,6 @@ WriteTinOptions some_options(Geometry geometry = Geometry::Polygon) {
     options.geometry = geometry;
     options.metadata = {{"TINWRIGHT_VERSION", "0.1.0"}, {"TINWRIGHT_OPTIONS", "a \"b\" <c> = 1"}};
     return options;
-}
-
-template <class Exception, class Action>
-std::string message_of(const Action& action) {
-    try {
-        action();
-    } catch (const Exception& error) {
-        return error.what();
-    }
-    return "(nothing thrown)";
 }
 
 GDALDatasetUniquePtr open(const std::string& path) {

@@ -12,6 +12,7 @@
 #include "tinwright/mesh/tin_check.hpp"
 
 #include "support/cases.hpp"
+#include "support/messages.hpp"
 #include "support/point_sets.hpp"
 #include "support/tins.hpp"
 
@@ -53,12 +54,7 @@ std::size_t count_ghost_loops(const TriangleMesh& mesh) {
 }
 
 std::string refusal_of(std::size_t vertex_count, const std::vector<std::uint32_t>& corners) {
-    try {
-        mesh_of(vertex_count, corners);
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "";
+    return message_of<InputError>([&] { mesh_of(vertex_count, corners); });
 }
 
 }  // namespace

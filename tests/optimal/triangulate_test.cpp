@@ -15,6 +15,7 @@
 #include "tinwright/mesh/tin_check.hpp"
 
 #include "support/cases.hpp"
+#include "support/messages.hpp"
 #include "support/oracles.hpp"
 #include "support/point_sets.hpp"
 #include "support/tins.hpp"
@@ -26,12 +27,7 @@ namespace {
 
 template <class Exception>
 std::string refusal_of(const std::vector<Point3>& samples, const TriangulateOptions& options = {}) {
-    try {
-        triangulate(samples, options);
-    } catch (const Exception& error) {
-        return error.what();
-    }
-    return "";
+    return message_of<Exception>([&] { triangulate(samples, options); });
 }
 
 /// Everything a TIN holds but the numbers of its samples, as words.

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tinwright/delaunay/delaunay.hpp"
+#include "tinwright/delaunay/sample_vertices.hpp"
 #include "tinwright/geometry/curve.hpp"
 #include "tinwright/mesh/tin.hpp"
 
@@ -35,6 +36,19 @@ inline tinwright::Tin tin_of(std::span<const tinwright::Key2> keys) {
     tin.z.assign(keys.size(), 0.0);
     tin.sample.assign(keys.size(), tinwright::Tin::kNoSample);
     tin.keys.assign(keys.begin(), keys.end());
+    return tin;
+}
+
+/// The Delaunay TIN of samples; duplicates by `policy`.
+inline tinwright::Tin tin_of_samples(const std::vector<tinwright::Point3>& samples,
+                                     tinwright::DuplicatePolicy policy = tinwright::DuplicatePolicy::Error) {
+    tinwright::SampleVertices vertices = tinwright::make_sample_vertices(samples, {.policy = policy});
+    tinwright::Tin tin;
+    tin.mesh = tinwright::make_delaunay(vertices.keys);
+    tin.lattice = vertices.lattice;
+    tin.keys = std::move(vertices.keys);
+    tin.z = std::move(vertices.z);
+    tin.sample = std::move(vertices.sample);
     return tin;
 }
 

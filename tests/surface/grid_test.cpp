@@ -5,37 +5,23 @@
 
 #include <doctest/doctest.h>
 
-#include "tinwright/delaunay/delaunay.hpp"
-#include "tinwright/delaunay/sample_vertices.hpp"
 #include "tinwright/geometry/decimal.hpp"
 #include "tinwright/geometry/error.hpp"
 
+#include "support/messages.hpp"
+#include "support/tins.hpp"
+
 using namespace tinwright;
+using namespace tinwright_tests;
 
 namespace {
 
-Tin make_tin(const std::vector<Point3>& samples) {
-    SampleVertices vertices = make_sample_vertices(samples);
-    Tin tin;
-    tin.mesh = make_delaunay(vertices.keys);
-    tin.lattice = vertices.lattice;
-    tin.keys = std::move(vertices.keys);
-    tin.z = std::move(vertices.z);
-    tin.sample = std::move(vertices.sample);
-    return tin;
-}
-
 Tin rectangle(double x_min, double y_min, double x_max, double y_max) {
-    return make_tin({{x_min, y_min, 0}, {x_max, y_min, 0}, {x_min, y_max, 0}, {x_max, y_max, 0}});
+    return tin_of_samples({{x_min, y_min, 0}, {x_max, y_min, 0}, {x_min, y_max, 0}, {x_max, y_max, 0}});
 }
 
-std::string message_of(const Tin& tin, const GridRequest& request) {
-    try {
-        choose_grid(tin, request);
-    } catch (const UsageError& error) {
-        return error.what();
-    }
-    return "no error";
+std::string refusal_of(const Tin& tin, const GridRequest& request) {
+    return message_of<UsageError>([&] { choose_grid(tin, request); });
 }
 
 }  // namespace
@@ -84,7 +70,7 @@ TEST_SUITE("surface/grid") {
                     samples.push_back({i * spacing, j * spacing, 0});
                 }
             }
-            const Tin tin = make_tin(samples);
+            const Tin tin = tin_of_samples(samples);
             CHECK(median_spacing(tin) == doctest::Approx(spacing));
             return choose_grid(tin, {}).cell_width;
         };
@@ -98,18 +84,18 @@ TEST_SUITE("surface/grid") {
 
     TEST_CASE("requests that cannot be are refused in one line") {
         const Tin tin = rectangle(0, 0, 1, 1);
-        CHECK(message_of(tin, {.align_to_resolution = true}) ==
+        CHECK(refusal_of(tin, {.align_to_resolution = true}) ==
               "--tap aligns the grid with multiples of the resolution; add --resolution");
-        CHECK(message_of(tin, {.resolution = Point2{0, 1}}) == "--resolution 0 1 must be greater than zero");
-        CHECK(message_of(tin, {.size = GridRequest::Size{0, 5}}) == "--size 0 5 must be at least 1 1");
-        CHECK(message_of(tin, {.extent = Box{5, 0, 4, 1}}) ==
+        CHECK(refusal_of(tin, {.resolution = Point2{0, 1}}) == "--resolution 0 1 must be greater than zero");
+        CHECK(refusal_of(tin, {.size = GridRequest::Size{0, 5}}) == "--size 0 5 must be at least 1 1");
+        CHECK(refusal_of(tin, {.extent = Box{5, 0, 4, 1}}) ==
               "--extent 5 0 4 1 is empty; give xmin ymin xmax ymax with xmin < xmax and ymin < ymax");
-        CHECK(message_of(tin, {.extent = Box{0, 0, 10, 10},
+        CHECK(refusal_of(tin, {.extent = Box{0, 0, 10, 10},
                                .resolution = Point2{1, 1},
                                .size = GridRequest::Size{5, 5}}) ==
               "--size 5 5 contradicts --extent and --resolution, which make 10 by 10 cells; drop one of the "
               "three");
-        CHECK(message_of(tin, {.resolution = Point2{1e-12, 1}}) ==
+        CHECK(refusal_of(tin, {.resolution = Point2{1e-12, 1}}) ==
               "a resolution of 1e-12 by 1 makes a raster of 1000000000000 by 1 cells, more than 2147483647 a "
               "side; "
               "give a coarser --resolution or a smaller --extent");

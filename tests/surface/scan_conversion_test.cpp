@@ -14,12 +14,12 @@
 #include <tbb/task_arena.h>
 
 #include "tinwright/breaklines/domain.hpp"
-#include "tinwright/delaunay/delaunay.hpp"
-#include "tinwright/delaunay/sample_vertices.hpp"
 
 #include "support/cases.hpp"
+#include "support/tins.hpp"
 
 using namespace tinwright;
+using tinwright_tests::tin_of_samples;
 
 namespace {
 
@@ -53,17 +53,6 @@ std::vector<Point3> samples_of(const WholeCase& whole) {
                            decimal(whole.samples[i].y, whole.decimals), whole.z[i]});
     }
     return samples;
-}
-
-Tin make_tin(const std::vector<Point3>& samples) {
-    SampleVertices vertices = make_sample_vertices(samples, {DuplicatePolicy::First, 0});
-    Tin tin;
-    tin.mesh = make_delaunay(vertices.keys);
-    tin.lattice = vertices.lattice;
-    tin.keys = std::move(vertices.keys);
-    tin.z = std::move(vertices.z);
-    tin.sample = std::move(vertices.sample);
-    return tin;
 }
 
 GridGeometry grid_of(const WholeCase& whole) {
@@ -311,7 +300,7 @@ TEST_SUITE("surface/scan_conversion") {
                 if (samples.size() < 3) {
                     continue;
                 }
-                Tin tin = make_tin(samples);
+                Tin tin = tin_of_samples(samples, DuplicatePolicy::First);
                 if (!has_faces(tin)) {
                     continue;
                 }
@@ -331,7 +320,7 @@ TEST_SUITE("surface/scan_conversion") {
             CAPTURE(seed);
             std::mt19937_64 random(seed);
             const WholeCase whole = make_near_miss(random);
-            const Tin tin = make_tin(samples_of(whole));
+            const Tin tin = tin_of_samples(samples_of(whole), DuplicatePolicy::First);
             if (has_faces(tin)) {
                 check_against_oracle(whole, tin);
             }
@@ -343,7 +332,7 @@ TEST_SUITE("surface/scan_conversion") {
             CAPTURE(seed);
             std::mt19937_64 random(seed);
             const WholeCase whole = make_case(seed % 2 == 0 ? Family::Lattice : Family::Random, random);
-            Tin tin = make_tin(samples_of(whole));
+            Tin tin = tin_of_samples(samples_of(whole), DuplicatePolicy::First);
             for (std::uint32_t f = 0; f < tin.mesh.slot_count(); f += 5) {
                 tin.mesh.set_terrain({f}, false);
             }
@@ -359,7 +348,7 @@ TEST_SUITE("surface/scan_conversion") {
                 samples.push_back({decimal(10002 + 2 * i, 1), decimal(50002 + 2 * j, 1), i * 3.25 - j * j});
             }
         }
-        const Tin tin = make_tin(samples);
+        const Tin tin = tin_of_samples(samples, DuplicatePolicy::First);
         const GridGeometry grid{1000.1, 5004.1, 0.2, 0.2, 25, 20};
         const Raster<double> raster = rasterise<double>(tin, grid, 4, 2);
         CHECK(raster.cells == 500);
@@ -391,7 +380,7 @@ TEST_SUITE("surface/scan_conversion") {
                 sample.y = 5000000 + sample.y * scale;
                 sample.z = 3 + 0.5 * (sample.x - 300000) - 0.25 * (sample.y - 5000000);
             }
-            const Tin tin = make_tin(samples);
+            const Tin tin = tin_of_samples(samples, DuplicatePolicy::First);
             const GridGeometry grid{300000, 5000000 + 10 * scale, 10 * scale / 77, 10 * scale / 91, 77, 91};
             const Raster<double> raster = rasterise<double>(tin, grid, 10, 2);
             CHECK(raster.cells == 77 * 91);
@@ -407,7 +396,7 @@ TEST_SUITE("surface/scan_conversion") {
     }
 
     TEST_CASE("a raster far from the surface holds no value, and one finer than the lattice is filled") {
-        const Tin tin = make_tin({{0, 0, 1}, {4, 0, 2}, {0, 4, 3}, {4, 4, 4}});
+        const Tin tin = tin_of_samples({{0, 0, 1}, {4, 0, 2}, {0, 4, 3}, {4, 4, 4}}, DuplicatePolicy::First);
         CHECK(rasterise<float>(tin, {1e9, 1e9, 0.1, 0.1, 50, 50}, 8, 2).cells == 0);
         CHECK(rasterise<float>(tin, {-1e18, 3, 1, 1, 50, 50}, 8, 2).cells == 0);
         CHECK(rasterise<float>(tin, {1, 1 + 50e-14, 1e-14, 1e-14, 50, 50}, 8, 2).cells == 2500);
@@ -415,7 +404,7 @@ TEST_SUITE("surface/scan_conversion") {
     }
 
     TEST_CASE("elevations near the end of the range stay within their face's") {
-        const Tin tin = make_tin({{0, 0, 1e308}, {4, 0, -1e308}, {0, 4, 1e308}});
+        const Tin tin = tin_of_samples({{0, 0, 1e308}, {4, 0, -1e308}, {0, 4, 1e308}}, DuplicatePolicy::First);
         const Raster<double> raster = rasterise<double>(tin, {0, 4, 0.5, 0.5, 8, 8}, 8, 1);
         CHECK(raster.cells == 36);
         for (const double value : raster.values) {
