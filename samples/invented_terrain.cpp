@@ -90,7 +90,7 @@ double lake_ratio(Position p) {
     const double dx = (p.x - kLakeCentre.x) / 1.75;
     const double dy = p.y - kLakeCentre.y;
     const double r = std::sqrt(dx * dx + dy * dy) + 1e-9;
-    return r / (56 * (1 + 0.42 * noise(1.3 * dx / r + 5, 1.3 * dy / r + 5, 31)));
+    return r / (56 * (1 + 0.5 * noise(0.9 * dx / r + 5.4, 0.9 * dy / r + 5.3, 38)));
 }
 
 double survey_ratio(Position p) {

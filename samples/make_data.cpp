@@ -1,19 +1,18 @@
 // Makes the files of samples/data: an invented survey of an invented valley (invented_terrain.hpp).
 //   make_data FOLDER          writes survey.csv, road_pnezd.txt and terrain.gpkg
 //   make_data --check FOLDER  fails when the folder holds anything else than what would be written
-#include <gdal_priv.h>
-#include <ogrsf_frmts.h>
-
 #include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <iostream>
-#include <iterator>
 #include <memory>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
+
+#include <gdal_priv.h>
+#include <ogrsf_frmts.h>
 
 #include "invented_terrain.hpp"
 
@@ -245,7 +244,8 @@ void write_geopackage(const Survey& survey, const std::string& path) {
         add_feature(*breaklines, geometry, "kind", line.kind);
     }
     add_feature(*make_layer("lake", wkbPolygon25D, nullptr), make_polygon(survey.lake, true), nullptr, "");
-    add_feature(*make_layer("boundary", wkbPolygon, nullptr), make_polygon(survey.outline, false), nullptr, "");
+    add_feature(*make_layer("boundary", wkbPolygon, nullptr), make_polygon(survey.outline, false), nullptr,
+                "");
     file->CommitTransaction();
 }
 
@@ -276,7 +276,9 @@ std::string geopackage_text(const std::string& path) {
 
 std::string read_text(const std::string& path) {
     std::ifstream in(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+    std::ostringstream text;
+    text << in.rdbuf();
+    return text.str();
 }
 
 void write_text(const std::string& path, const std::string& text) {
