@@ -8,6 +8,7 @@ set -euo pipefail
 root=$(cd "$(dirname "$0")/../.." && pwd)
 build=${BUILD:-$root/build/benchmarks}
 page=$root/docs/benchmarks.md
+rounds=${ROUNDS:-5}
 tables=("$@")
 if [ ${#tables[@]} -eq 0 ]; then
     tables=(delaunay raster read job)
@@ -23,7 +24,9 @@ for table in "${tables[@]}"; do
         echo "run.sh: $page has no place for the table $table" >&2
         exit 2
     fi
-    "$build/tests/benchmarks/tinwright_benchmarks" "$table" --rounds "${ROUNDS:-5}" | tee "$result"
+    read -r load _ < /proc/loadavg
+    "$build/tests/benchmarks/tinwright_benchmarks" "$table" --rounds "$rounds" | tee "$result"
+    printf '\nRounds: %s. Load average of the machine just before: %s.\n' "$rounds" "$load" >> "$result"
     # The lines from the table's mark to the end mark are replaced.
     awk -v table="$table" -v result="$result" '
         $0 == "<!-- table " table " -->" {
