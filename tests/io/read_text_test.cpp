@@ -85,10 +85,11 @@ TEST_SUITE("io/read_text") {
         CHECK(samples.points == two_points);
         CHECK(samples.slices[0].skipped == 4);
         CHECK(samples.slices[0].id(1) == 6);
-        CHECK(samples.warnings ==
-              std::vector<std::string>{
-                  R"(file "/vsimem/t.txt": 4 unusable skipped, the first is file "/vsimem/t.txt", line 3: )"
-                  "z (column 3) is missing"});
+        CHECK(
+            samples.warnings ==
+            std::vector<std::string>{
+                R"(file "/vsimem/t.txt": 4 unusable rows skipped, the first is file "/vsimem/t.txt", line 3: )"
+                "z (column 3) is missing"});
     }
 
     TEST_CASE("compressed and archived text is read through GDAL's file systems") {
@@ -102,7 +103,8 @@ TEST_SUITE("io/read_text") {
             VSIFCloseL(file);
             CHECK(read(inside).points == two_points);
         }
-        CHECK(read("/vsimem/t.xyz.gz").points == two_points);  // the prefix may be left out
+        CHECK(read("/vsimem/t.xyz.gz").points == two_points);               // the prefix may be left out
+        CHECK(read("CSV:/vsigzip//vsimem/t.xyz.gz").points == two_points);  // as GDAL names its driver
         VSIUnlink("/vsimem/t.xyz.gz");
         VSIUnlink("/vsimem/t.zip");
     }

@@ -158,6 +158,10 @@ OpenedSource open_source(const Source& source) {
     if (source.format == Source::Format::Auto && (wants_gdal || !(is_stdin || has_text_name(source.path)))) {
         return open_with_gdal(source, opened.path);
     }
+    if (source.path.starts_with("CSV:")) {
+        // GDAL's way to name its driver; our own parser reads such files.
+        opened.path = gdal_path(source.path.substr(4));
+    }
     if (!is_readable(opened.path)) {
         throw IoError("cannot open file " + quoted(source.path) + ": no such file" +
                       unknown_key_hint(source.path));

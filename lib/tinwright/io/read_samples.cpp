@@ -72,6 +72,18 @@ std::string utm_zone(std::span<const Point3> points) {
     return "EPSG:" + std::to_string((latitude < 0 ? 32700 : 32600) + zone);
 }
 
+/// What a source of this kind consists of.
+std::string noun(SampleSlice::Kind kind) {
+    switch (kind) {
+        case SampleSlice::Kind::Vector:
+            return "feature";
+        case SampleSlice::Kind::Raster:
+            return "cell";
+        default:
+            return "row";
+    }
+}
+
 std::string describe_id(const SampleSlice& slice, std::int64_t id) {
     const std::string file = "file " + quoted(slice.file);
     switch (slice.kind) {
@@ -281,7 +293,8 @@ class SampleReader {
         out_.warnings.insert(out_.warnings.end(), raw.warnings.begin(), raw.warnings.end());
         if (raw.bad.count() > 0) {
             out_.warnings.push_back(label(sources_[s]) + ": " + std::to_string(raw.bad.count()) +
-                                    " unusable skipped, the first is " + raw.bad.first());
+                                    " unusable " + noun(raw.kind) + (raw.bad.count() == 1 ? "" : "s") +
+                                    " skipped, the first is " + raw.bad.first());
         }
     }
 
