@@ -26,7 +26,7 @@ struct DomainReport {
 /// exactly one border edge, whose opposite vertex is not on the border, and whose height over the border
 /// edge is less than a tenth of that edge: a rule without scale.
 /// Concave: as long as there is one, the longest border edge above `length` is opened, by dropping its face
-/// if the opposite vertex is not on the border.
+/// if the opposite vertex is not on the border [duckham2008].
 /// Returns how many faces were dropped. O(n + b log b), b border faces looked at. Result independent of
 /// vertex numbering up to exact ties, which break on vertex ids.
 std::size_t apply_domain(Tin& tin, const DomainRule& rule);

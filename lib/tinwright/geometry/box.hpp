@@ -14,10 +14,11 @@ struct Box {
     double y_max = -std::numeric_limits<double>::infinity();
 
     void add(double x, double y) {
-        x_min = std::min(x_min, x);
-        y_min = std::min(y_min, y);
-        x_max = std::max(x_max, x);
-        y_max = std::max(y_max, y);
+        // Adding zero makes a negative zero positive, so that bounds do not depend on which zero came first.
+        x_min = std::min(x_min, x + 0.0);
+        y_min = std::min(y_min, y + 0.0);
+        x_max = std::max(x_max, x + 0.0);
+        y_max = std::max(y_max, y + 0.0);
     }
     [[nodiscard]] bool is_empty() const { return !(x_min <= x_max); }
     friend bool operator==(const Box&, const Box&) = default;

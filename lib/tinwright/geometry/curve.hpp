@@ -9,8 +9,8 @@
 
 #include "tinwright/geometry/lattice.hpp"
 
-/// The order in which vertices are numbered: along the Z-order curve of their keys (x's bit before y's at
-/// each level). It is canonical, cheap, and close in the plane is mostly close in memory.
+/// The order in which vertices are numbered: along the Z-order curve of their keys [morton1966] (x's bit
+/// before y's at each level). It is canonical, cheap, and close in the plane is mostly close in memory.
 namespace tinwright {
 
 /// Whether `a` comes before `b` on the curve.

@@ -6,7 +6,7 @@
 #include "tinwright/geometry/lattice.hpp"
 
 /// The tiers behind the predicates, opened to their tests and to the loop of the Delaunay construction. A
-/// tier that answers is right; one that cannot tell says `kUnsure`, and the next is asked.
+/// tier that answers is right; one that cannot tell says `kUnsure`, and the next is asked [shewchuk1997].
 ///
 /// The double tier is inline, hence every file that includes this header is built without contraction of
 /// multiply and add; it is not installed.

@@ -19,7 +19,7 @@ inline constexpr std::array<double, 23> kPowersOfTen = {1e0,  1e1,  1e2,  1e3,  
 /// exactly. The text must be followed by a byte that no number contains, such as the line's end.
 ///
 /// At most 19 digits whose integer m is at most 2^53, with |e| <= 22: m and 10^|e| are doubles, so the one
-/// multiplication or division that is left rounds correctly (W. D. Clinger, 1990).
+/// multiplication or division that is left rounds correctly [clinger1990].
 inline bool read_short_decimal(const char*& p, char point, double& value) {
     const char* q = p;
     const bool is_negative = *q == '-';
