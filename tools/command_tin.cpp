@@ -1,5 +1,6 @@
 #include "command_tin.hpp"
 
+#include <array>
 #include <chrono>
 #include <utility>
 
@@ -14,10 +15,11 @@ namespace {
 
 using Geometry = io::WriteTinOptions::Geometry;
 
-constexpr std::pair<std::string_view, Geometry> kGeometries[] = {{"polygon", Geometry::Polygon},
-                                                                 {"tin", Geometry::Tin},
-                                                                 {"edges", Geometry::Edges},
-                                                                 {"vertices", Geometry::Vertices}};
+constexpr auto kGeometries =
+    std::to_array<std::pair<std::string_view, Geometry>>({{"polygon", Geometry::Polygon},
+                                                          {"tin", Geometry::Tin},
+                                                          {"edges", Geometry::Edges},
+                                                          {"vertices", Geometry::Vertices}});
 
 }  // namespace
 

@@ -1,6 +1,7 @@
 #ifndef TINWRIGHT_TOOLS_OPTION_VALUES_HPP
 #define TINWRIGHT_TOOLS_OPTION_VALUES_HPP
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -27,7 +28,7 @@ std::int64_t whole_value(std::string_view option, const std::string& text, std::
 /// The entry of `choices` named `text`.
 template <class Value, std::size_t N>
 Value choice_value(std::string_view option, const std::string& text,
-                   const std::pair<std::string_view, Value> (&choices)[N]) {
+                   const std::array<std::pair<std::string_view, Value>, N>& choices) {
     std::string names;
     for (std::size_t i = 0; i < N; ++i) {
         if (text == choices[i].first) {
@@ -41,7 +42,7 @@ Value choice_value(std::string_view option, const std::string& text,
 
 /// The name of a choice.
 template <class Value, std::size_t N>
-std::string choice_name(Value value, const std::pair<std::string_view, Value> (&choices)[N]) {
+std::string choice_name(Value value, const std::array<std::pair<std::string_view, Value>, N>& choices) {
     for (const auto& [name, candidate] : choices) {
         if (candidate == value) {
             return std::string(name);

@@ -1,5 +1,6 @@
 #include "options_raster.hpp"
 
+#include <array>
 #include <string_view>
 #include <utility>
 
@@ -11,7 +12,7 @@ namespace tinwright::tools {
 
 namespace {
 
-constexpr std::pair<std::string_view, int> kMethods[] = {{"linear", 0}};
+constexpr auto kMethods = std::to_array<std::pair<std::string_view, int>>({{"linear", 0}});
 
 Box parse_extent(const std::vector<std::string>& texts) {
     Box box;

@@ -1,5 +1,6 @@
 #include "options_triangulation.hpp"
 
+#include <array>
 #include <string_view>
 #include <utility>
 
@@ -11,12 +12,16 @@ namespace tinwright::tools {
 
 namespace {
 
-constexpr std::pair<std::string_view, int> kCriteria[] = {{"delaunay", 0}};
+constexpr auto kCriteria = std::to_array<std::pair<std::string_view, int>>({{"delaunay", 0}});
 
-constexpr std::pair<std::string_view, DuplicatePolicy> kPolicies[] = {
-    {"error", DuplicatePolicy::Error},  {"first", DuplicatePolicy::First}, {"last", DuplicatePolicy::Last},
-    {"min", DuplicatePolicy::Min},      {"max", DuplicatePolicy::Max},     {"mean", DuplicatePolicy::Mean},
-    {"median", DuplicatePolicy::Median}};
+constexpr auto kPolicies =
+    std::to_array<std::pair<std::string_view, DuplicatePolicy>>({{"error", DuplicatePolicy::Error},
+                                                                 {"first", DuplicatePolicy::First},
+                                                                 {"last", DuplicatePolicy::Last},
+                                                                 {"min", DuplicatePolicy::Min},
+                                                                 {"max", DuplicatePolicy::Max},
+                                                                 {"mean", DuplicatePolicy::Mean},
+                                                                 {"median", DuplicatePolicy::Median}});
 
 DomainRule parse_domain(const std::string& text) {
     if (text == "convex") {

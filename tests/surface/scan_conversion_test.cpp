@@ -404,7 +404,8 @@ TEST_SUITE("surface/scan_conversion") {
     }
 
     TEST_CASE("elevations near the end of the range stay within their face's") {
-        const Tin tin = tin_of_samples({{0, 0, 1e308}, {4, 0, -1e308}, {0, 4, 1e308}}, DuplicatePolicy::First);
+        const Tin tin =
+            tin_of_samples({{0, 0, 1e308}, {4, 0, -1e308}, {0, 4, 1e308}}, DuplicatePolicy::First);
         const Raster<double> raster = rasterise<double>(tin, {0, 4, 0.5, 0.5, 8, 8}, 8, 1);
         CHECK(raster.cells == 36);
         for (const double value : raster.values) {

@@ -32,7 +32,8 @@ TEST_SUITE("tools/option_values") {
     }
 
     TEST_CASE("a choice names what there is") {
-        constexpr std::pair<std::string_view, int> kChoices[] = {{"a", 1}, {"b", 2}, {"c", 3}};
+        constexpr auto kChoices =
+            std::to_array<std::pair<std::string_view, int>>({{"a", 1}, {"b", 2}, {"c", 3}});
         CHECK(choice_value("--x", "b", kChoices) == 2);
         CHECK(choice_name(3, kChoices) == "c");
         CHECK_THROWS_WITH_AS(choice_value("--x", "d", kChoices), "--x takes a, b or c, not \"d\"",

@@ -1,5 +1,6 @@
 #include "tinwright/delaunay/delaunay.hpp"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -104,7 +105,7 @@ class Builder {
 
     // A vertex seen from the base's left end.
     struct Seen {
-        Index vertex;
+        Index vertex = 0;
         internal::LocalKey at;
     };
     [[nodiscard]] Seen see(Index u, Index v) const { return {v, internal::localize(key_[v], key_[u])}; }
@@ -144,7 +145,7 @@ class Builder {
     Extremes make_triangle(Index a, Index b, Index c) {
         const Index inner = 2 * a;
         make_face(inner, a, b, c);
-        const Index corners[] = {a, b, c};
+        const std::array<Index, 3> corners{a, b, c};
         for (Index i = 0; i < 3; ++i) {
             const Index ghost = inner + 1 + i;
             const Index next_ghost = inner + 1 + (i + 1) % 3;

@@ -35,7 +35,7 @@ void* allocate_large(std::size_t bytes) {
 
 void release_large(void* memory, std::size_t bytes) noexcept {
     if (is_large(bytes)) {
-        std::free(memory);
+        std::free(memory);  // NOLINT(cppcoreguidelines-no-malloc): std::aligned_alloc has no other way back
     } else {
         ::operator delete(memory);
     }

@@ -19,7 +19,7 @@ inline constexpr double kExactIntegers = 9007199254740992.0;
 /// Half a unit in the last place of 1.
 inline constexpr double kUnit = 1.0 / kExactIntegers;
 
-inline int sign_of(double value) { return (value > 0) - (value < 0); }
+inline int sign_of(double value) { return static_cast<int>(value > 0) - static_cast<int>(value < 0); }
 
 /// A key seen from another, with its squared distance. Coordinates are exact; the square rounds.
 struct LocalKey {

@@ -1,6 +1,7 @@
 #include "tinwright/io/atomic_output.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
@@ -132,9 +133,9 @@ void delete_virtual(const std::string& path) {
 }
 
 std::string in_gigabytes(double bytes) {
-    char text[48];
-    std::snprintf(text, sizeof text, bytes < 1e8 ? "%.3f GB" : "%.1f GB", bytes * 1e-9);
-    return text;
+    std::array<char, 48> text;
+    std::snprintf(text.data(), text.size(), bytes < 1e8 ? "%.3f GB" : "%.1f GB", bytes * 1e-9);
+    return text.data();
 }
 
 }  // namespace

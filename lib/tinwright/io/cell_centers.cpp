@@ -16,10 +16,10 @@ bool is_decimal(double value, double power, double& digits) {
 }  // namespace
 
 CellCenters::CellCenters(const std::array<double, 6>& transform, int cells) {
-    constexpr std::size_t most_places = 9;
-    constexpr double largest_exact =
+    constexpr std::size_t kMostPlaces = 9;
+    constexpr double kLargestExact =
         9007199254740992.0;  // 2^53: every term and sum below it is an exact integer
-    for (std::size_t places = 0; places <= most_places && !are_decimal_; ++places) {
+    for (std::size_t places = 0; places <= kMostPlaces && !are_decimal_; ++places) {
         const double power = kPowersOfTen[places];
         are_decimal_ = true;
         double largest = 0;
@@ -30,7 +30,7 @@ CellCenters::CellCenters(const std::array<double, 6>& transform, int cells) {
             scaled_[k] = is_origin ? 2 * digits : digits;
             largest += std::abs(scaled_[k]) * (is_origin ? 1.0 : 2.0 * cells + 1);
         }
-        are_decimal_ = are_decimal_ && largest < largest_exact;
+        are_decimal_ = are_decimal_ && largest < kLargestExact;
         divisor_ = 2 * power;
     }
     if (!are_decimal_) {

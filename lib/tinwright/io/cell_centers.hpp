@@ -27,7 +27,7 @@ class CellCenters {
     [[nodiscard]] bool are_decimal() const { return are_decimal_; }
 
   private:
-    std::array<double, 6> scaled_;  // twice the origin, the steps of half a cell; integers when decimal
+    std::array<double, 6> scaled_{};  // twice the origin, the steps of half a cell; integers when decimal
     double divisor_ = 2;
     bool are_decimal_ = false;
 };

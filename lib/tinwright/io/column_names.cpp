@@ -34,18 +34,18 @@ std::optional<std::size_t> find_first(const std::vector<std::string>& keys, Name
     return std::nullopt;
 }
 
-constexpr std::array<std::string_view, 11> x_names = {
+constexpr std::array<std::string_view, 11> kXNames = {
     "x", "xcoord", "xcoordinate", "coordx", "coordinatex", "pointx", "posx", "xpos", "geomx", "xutm", "utmx"};
-constexpr std::array<std::string_view, 11> y_names = {
+constexpr std::array<std::string_view, 11> kYNames = {
     "y", "ycoord", "ycoordinate", "coordy", "coordinatey", "pointy", "posy", "ypos", "geomy", "yutm", "utmy"};
-constexpr std::array<std::string_view, 9> east_names = {"easting", "eastings",   "east",    "e",  "ecoord",
+constexpr std::array<std::string_view, 9> kEastNames = {"easting", "eastings",   "east",    "e",  "ecoord",
                                                         "utme",    "rechtswert", "ostwert", "ost"};
-constexpr std::array<std::string_view, 9> north_names = {"northing", "northings", "north",    "n",   "ncoord",
+constexpr std::array<std::string_view, 9> kNorthNames = {"northing", "northings", "north",    "n",   "ncoord",
                                                          "utmn",     "hochwert",  "nordwert", "nord"};
-constexpr std::array<std::string_view, 6> lon_names = {"longitude", "lon",    "long",
+constexpr std::array<std::string_view, 6> kLonNames = {"longitude", "lon",    "long",
                                                        "lng",       "londeg", "longdeg"};
-constexpr std::array<std::string_view, 3> lat_names = {"latitude", "lat", "latdeg"};
-constexpr std::array<std::string_view, 21> z_names = {
+constexpr std::array<std::string_view, 3> kLatNames = {"latitude", "lat", "latdeg"};
+constexpr std::array<std::string_view, 21> kZNames = {
     "z",      "elevation", "elev", "ele",    "el",          "height", "h",
     "hgt",    "altitude",  "alt",  "zcoord", "zcoordinate", "coordz", "coordinatez",
     "pointz", "posz",      "zpos", "geomz",  "level",       "hoehe",  "h\xC3\xB6he"};
@@ -61,9 +61,9 @@ NamedColumns recognise_columns(const std::vector<std::string>& names) {
         bool is_lon_lat;
     };
     const std::array<Family, 3> families = {
-        {{x_names, y_names, false}, {east_names, north_names, false}, {lon_names, lat_names, true}}};
+        {{kXNames, kYNames, false}, {kEastNames, kNorthNames, false}, {kLonNames, kLatNames, true}}};
     NamedColumns columns;
-    columns.z = find_first(keys, z_names);
+    columns.z = find_first(keys, kZNames);
     for (const Family& family : families) {
         columns.x = find_first(keys, family.x);
         columns.y = find_first(keys, family.y);

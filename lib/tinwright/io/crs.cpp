@@ -1,6 +1,7 @@
 #include "tinwright/io/crs.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <string_view>
@@ -29,20 +30,20 @@ bool is_placeholder(const OGRSpatialReference& system) {
         return true;
     }
     const bool nameless = name.empty() || name.starts_with("unknown") || name.starts_with("unnamed");
-    return system.IsEmpty() || (system.IsLocal() && nameless);
+    return system.IsEmpty() != 0 || (system.IsLocal() && nameless);
 }
 
 /// One spelling a unit, whichever driver or authority wrote it.
 std::string unit_name(const std::string& unit, double metres) {
-    constexpr double foot = 0.3048;
-    constexpr double survey_foot = 1200.0 / 3937.0;
+    constexpr double kFoot = 0.3048;
+    constexpr double kSurveyFoot = 1200.0 / 3937.0;
     if (metres == 1.0) {
         return "metre";
     }
-    if (std::abs(metres - survey_foot) < 1e-10) {  // files write it with 8 to 16 digits; feet differ by 6e-7
+    if (std::abs(metres - kSurveyFoot) < 1e-10) {  // files write it with 8 to 16 digits; feet differ by 6e-7
         return "US survey foot";
     }
-    if (std::abs(metres - foot) < 1e-10) {
+    if (std::abs(metres - kFoot) < 1e-10) {
         return "foot";
     }
     return unit;
@@ -85,9 +86,9 @@ bool Crs::is_same(const Crs& other) const {
         return system_ == other.system_;
     }
     const GdalMessages messages;
-    const char* const options[] = {"IGNORE_DATA_AXIS_TO_SRS_AXIS_MAPPING=YES",
-                                   "CRITERION=EQUIVALENT_EXCEPT_AXIS_ORDER_GEOGCRS", nullptr};
-    return system_ == other.system_ || system_->IsSame(other.system_.get(), options) != 0;
+    const std::array<const char*, 3> options{"IGNORE_DATA_AXIS_TO_SRS_AXIS_MAPPING=YES",
+                                             "CRITERION=EQUIVALENT_EXCEPT_AXIS_ORDER_GEOGCRS", nullptr};
+    return system_ == other.system_ || system_->IsSame(other.system_.get(), options.data()) != 0;
 }
 
 std::string Crs::name() const {
@@ -118,8 +119,8 @@ std::string Crs::wkt() const {
     }
     const GdalMessages messages;
     char* text = nullptr;
-    const char* const options[] = {"FORMAT=WKT2_2019", "MULTILINE=NO", nullptr};
-    const OGRErr error = system_->exportToWkt(&text, options);
+    const std::array<const char*, 3> options{"FORMAT=WKT2_2019", "MULTILINE=NO", nullptr};
+    const OGRErr error = system_->exportToWkt(&text, options.data());
     std::string wkt = error == OGRERR_NONE ? text_or_empty(text) : std::string();
     CPLFree(text);
     return wkt;

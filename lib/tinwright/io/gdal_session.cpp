@@ -181,9 +181,9 @@ std::string escaped(char c) {
         default:
             break;
     }
-    constexpr std::string_view hex = "0123456789abcdef";
+    constexpr std::string_view kHex = "0123456789abcdef";
     const auto value = static_cast<unsigned char>(c);
-    return {'\\', 'x', hex[value >> 4U], hex[value & 15U]};
+    return {'\\', 'x', kHex[value >> 4U], kHex[value & 15U]};
 }
 
 }  // namespace
@@ -203,13 +203,13 @@ std::string quoted(const std::string& text) {
         pieces.push_back(plain ? std::string(1, c) : escaped(c));
         ++i;
     }
-    constexpr std::size_t longest = 200;  // characters; a path longer than this is known by its ends
-    constexpr std::size_t kept = 96;
+    constexpr std::size_t kLongest = 200;  // characters; a path longer than this is known by its ends
+    constexpr std::size_t kKept = 96;
     std::string out = "\"";
     for (std::size_t i = 0; i < pieces.size(); ++i) {
-        if (pieces.size() > longest && i == kept) {
+        if (pieces.size() > kLongest && i == kKept) {
             out += "...";
-            i = pieces.size() - kept;
+            i = pieces.size() - kKept;
         }
         out += pieces[i];
     }
@@ -217,12 +217,12 @@ std::string quoted(const std::string& text) {
 }
 
 std::string quoted_list(const std::vector<std::string>& names) {
-    constexpr std::size_t most = 20;
+    constexpr std::size_t kMost = 20;
     std::string list;
-    for (std::size_t i = 0; i < std::min(names.size(), most); ++i) {
+    for (std::size_t i = 0; i < std::min(names.size(), kMost); ++i) {
         list += (i == 0 ? "" : ", ") + quoted(names[i]);
     }
-    return names.size() > most ? list + ", ..." : list;
+    return names.size() > kMost ? list + ", ..." : list;
 }
 
 }  // namespace tinwright::io

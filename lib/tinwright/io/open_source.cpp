@@ -30,9 +30,9 @@ bool has_text_name(const std::string& path) {
             name.resize(name.size() - packed.size());
         }
     }
-    constexpr std::array<std::string_view, 11> endings = {".csv", ".tsv", ".txt", ".xyz", ".asc", ".pnezd",
-                                                          ".pts", ".pnt", ".enz", ".neh", ".xyzi"};
-    return std::any_of(endings.begin(), endings.end(),
+    constexpr std::array<std::string_view, 11> kEndings = {".csv", ".tsv", ".txt", ".xyz", ".asc", ".pnezd",
+                                                           ".pts", ".pnt", ".enz", ".neh", ".xyzi"};
+    return std::any_of(kEndings.begin(), kEndings.end(),
                        [&](std::string_view end) { return name.ends_with(end); });
 }
 
@@ -81,12 +81,31 @@ bool is_readable(const std::string& path) {
     return path.starts_with("/vsistdin/") || VSIStatExL(path.c_str(), &status, VSI_STAT_EXISTS_FLAG) == 0;
 }
 
+bool wants_raster(const Source& source) { return source.band || source.stride; }
+
+bool wants_vector(const Source& source) {
+    return source.layer || source.sql || source.where || source.vertices || source.x_field;
+}
+
+[[noreturn]] void refuse_unopened(const Source& source, const std::string& path,
+                                  const GdalMessages& messages) {
+    const std::string file = "cannot open file " + quoted(source.path);
+    if (!is_readable(path)) {
+        throw IoError(file + ": no such file" + unknown_key_hint(source.path));
+    }
+    throw IoError(file +
+                  (wants_raster(source)   ? ": no raster that GDAL knows"
+                   : wants_vector(source) ? ": no vector layers that GDAL knows"
+                                          : ": neither a raster nor a vector layer nor rows of numbers") +
+                  messages.suffix());
+}
+
 OpenedSource open_with_gdal(const Source& source, std::string path) {
-    const bool wants_raster = source.band || source.stride;
-    const bool wants_vector = source.layer || source.sql || source.where || source.vertices || source.x_field;
-    const unsigned kinds = wants_raster   ? GDAL_OF_RASTER
-                           : wants_vector ? GDAL_OF_VECTOR
-                                          : GDAL_OF_RASTER | GDAL_OF_VECTOR;
+    const bool is_raster_asked = wants_raster(source);
+    const bool is_vector_asked = wants_vector(source);
+    const unsigned kinds = is_raster_asked   ? GDAL_OF_RASTER
+                           : is_vector_asked ? GDAL_OF_VECTOR
+                                             : GDAL_OF_RASTER | GDAL_OF_VECTOR;
     CPLStringList options;
     for (const std::string& option : source.open_options) {
         options.AddString(option.c_str());
@@ -97,29 +116,21 @@ OpenedSource open_with_gdal(const Source& source, std::string path) {
     opened.dataset.reset(GDALDataset::Open(opened.path.c_str(),
                                            kinds | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, nullptr,
                                            options.List(), nullptr));
-    const bool is_free = !wants_raster && !wants_vector && source.open_options.empty();
+    const bool is_free = !is_raster_asked && !is_vector_asked && source.open_options.empty();
     const std::string driver = opened.dataset && opened.dataset->GetDriver() != nullptr
                                    ? opened.dataset->GetDriver()->GetDescription()
                                    : "";
     if (is_free && (!opened.dataset || driver == "XYZ")) {
-        constexpr std::size_t enough = 65536;
-        if (looks_like_rows(whole_lines(read_head(opened.path, enough)))) {
+        constexpr std::size_t kEnough = 65536;
+        if (looks_like_rows(whole_lines(read_head(opened.path, kEnough)))) {
             opened.dataset.reset();
             return opened;
         }
     }
     if (!opened.dataset) {
-        const std::string file = "cannot open file " + quoted(source.path);
-        if (!is_readable(opened.path)) {
-            throw IoError(file + ": no such file" + unknown_key_hint(source.path));
-        }
-        throw IoError(file +
-                      (wants_raster   ? ": no raster that GDAL knows"
-                       : wants_vector ? ": no vector layers that GDAL knows"
-                                      : ": neither a raster nor a vector layer nor rows of numbers") +
-                      messages.suffix());
+        refuse_unopened(source, opened.path, messages);
     }
-    const bool is_raster = wants_raster || (!wants_vector && opened.dataset->GetLayerCount() == 0);
+    const bool is_raster = is_raster_asked || (!is_vector_asked && opened.dataset->GetLayerCount() == 0);
     opened.kind = is_raster ? OpenedSource::Kind::Raster : OpenedSource::Kind::Vector;
     if (!source.open_options.empty() && !messages.last_warning().empty()) {
         opened.warning = "file " + quoted(source.path) + ": GDAL says: " + messages.last_warning();
@@ -169,8 +180,8 @@ OpenedSource open_source(const Source& source) {
     if (source.format != Source::Format::Auto) {
         return opened;
     }
-    constexpr std::size_t enough = 65536;
-    const std::string head = read_head(opened.path, enough);
+    constexpr std::size_t kEnough = 65536;
+    const std::string head = read_head(opened.path, kEnough);
     const bool is_text = is_stdin ? looks_like_rows(whole_lines(head)) : !is_ascii_grid(head);
     return is_text ? std::move(opened) : open_with_gdal(source, opened.path);
 }

@@ -27,11 +27,7 @@ bool has_capability(GDALDriver* driver, const char* key) {
 
 std::vector<std::string> words(const std::string& text) {
     const CPLStringList list(CSLTokenizeString2(text.c_str(), " ", 0));
-    std::vector<std::string> result;
-    for (int i = 0; i < list.size(); ++i) {
-        result.emplace_back(list[i]);
-    }
-    return result;
+    return {list.List(), list.List() + list.size()};
 }
 
 /// Whether the driver leaves a file with the values in it: MEM and VRT leave none.

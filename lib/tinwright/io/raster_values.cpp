@@ -1,6 +1,7 @@
 #include "tinwright/io/raster_values.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -69,7 +70,7 @@ RasterValues::RasterValues(const Tin& tin, const RasterDriver& driver, std::opti
     if (asked) {
         nodata_ = *asked;
     } else if (is_integer_) {
-        const double candidates[] = {-9999, range_.highest, range_.lowest};
+        const std::array<double, 3> candidates{-9999, range_.highest, range_.lowest};
         const auto* const found =
             std::find_if(std::begin(candidates), std::end(candidates),
                          [&](double value) { return value >= range_.lowest && is_outside(value); });

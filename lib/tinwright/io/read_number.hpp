@@ -44,8 +44,8 @@ inline bool read_short_decimal(const char*& p, char point, double& value) {
         fraction = q - first;
         count += fraction;
     }
-    constexpr std::uint64_t exact = std::uint64_t{1} << 53U;
-    if (count == 0 || count > 19 || mantissa > exact || *q == 'e' || *q == 'E') {
+    constexpr std::uint64_t kExact = std::uint64_t{1} << 53U;
+    if (count == 0 || count > 19 || mantissa > kExact || *q == 'e' || *q == 'E') {
         return false;
     }
     const double magnitude = static_cast<double>(static_cast<std::int64_t>(mantissa)) /

@@ -34,7 +34,7 @@ std::string number(double value) {
 
 /// Units as the files spell them, by one name each.
 std::string z_unit_name(const std::string& unit) {
-    constexpr std::array<std::pair<std::string_view, std::string_view>, 14> names = {
+    constexpr std::array<std::pair<std::string_view, std::string_view>, 14> kNames = {
         {{"m", "metre"},
          {"meter", "metre"},
          {"meters", "metre"},
@@ -49,7 +49,7 @@ std::string z_unit_name(const std::string& unit) {
          {"ftUS", "US survey foot"},
          {"US_survey_foot", "US survey foot"},
          {"survey_foot", "US survey foot"}}};
-    for (const auto& [spelling, name] : names) {
+    for (const auto& [spelling, name] : kNames) {
         if (unit == spelling) {
             return std::string(name);
         }

@@ -20,8 +20,8 @@ namespace {
 
 // A piece a thread parses at a time. Smaller ones stay in the second-level cache, larger ones cost fewer
 // calls.
-constexpr std::size_t piece_bytes = std::size_t{1} << 20U;
-constexpr std::size_t longest_line = std::size_t{16} << 20U;
+constexpr std::size_t kPieceBytes = std::size_t{1} << 20U;
+constexpr std::size_t kLongestLine = std::size_t{16} << 20U;
 
 struct CloseFile {
     void operator()(VSILFILE* file) const { VSIFCloseL(file); }
@@ -46,7 +46,7 @@ class TextReader {
         const int asked = request_.options.threads;
         arena_.initialize(asked > 0 ? std::min(asked, processors) : processors);
         const auto threads = static_cast<std::size_t>(arena_.max_concurrency());
-        batch_bytes_ = threads == 1 ? piece_bytes : 4 * threads * piece_bytes;
+        batch_bytes_ = threads == 1 ? kPieceBytes : 4 * threads * kPieceBytes;
         total_bytes_ = known_size();
         bool is_first = true;
         while (fill()) {
@@ -102,7 +102,7 @@ class TextReader {
         used_ -= whole_;
         whole_ = 0;
         while (whole_ == 0 && !is_at_end_) {
-            if (used_ > longest_line) {
+            if (used_ > kLongestLine) {
                 throw InputError(request_.file + ", line " + std::to_string(line_) +
                                  ": longer than 16 MiB; this is no text with one sample a line");
             }
@@ -182,8 +182,8 @@ class TextReader {
 
     static std::vector<std::string_view> cut(std::string_view text) {
         std::vector<std::string_view> pieces;
-        while (text.size() > 2 * piece_bytes) {
-            const std::size_t end = text.find('\n', piece_bytes) + 1;
+        while (text.size() > 2 * kPieceBytes) {
+            const std::size_t end = text.find('\n', kPieceBytes) + 1;
             pieces.push_back(text.substr(0, end));
             text.remove_prefix(end);
         }
@@ -200,7 +200,7 @@ class TextReader {
     TextLayout layout_;
     std::vector<char> buffer_;
     std::vector<TextRows> rows_;  // one a piece; their memory serves every batch
-    std::size_t batch_bytes_ = piece_bytes;
+    std::size_t batch_bytes_ = kPieceBytes;
     std::size_t used_ = 0;   // bytes in the buffer
     std::size_t whole_ = 0;  // of them, whole lines
     bool is_at_end_ = false;

@@ -69,8 +69,9 @@ class LayerPlanner {
         return result_;
     }
 
-    [[nodiscard]] std::vector<std::string> layer_names(const std::vector<OGRLayer*>& layers) const {
+    [[nodiscard]] static std::vector<std::string> layer_names(const std::vector<OGRLayer*>& layers) {
         std::vector<std::string> names;
+        names.reserve(layers.size());
         for (OGRLayer* const layer : layers) {
             names.emplace_back(layer->GetName());
         }
@@ -87,10 +88,8 @@ class LayerPlanner {
     }
 
     OGRLayer* find_layer() {
-        std::vector<OGRLayer*> all;
-        for (int i = 0; i < dataset_.GetLayerCount(); ++i) {
-            all.push_back(dataset_.GetLayer(i));
-        }
+        const auto layers = dataset_.GetLayers();
+        const std::vector<OGRLayer*> all(layers.begin(), layers.end());
         if (source_.layer) {
             OGRLayer* const named = dataset_.GetLayerByName(source_.layer->c_str());
             if (named == nullptr) {

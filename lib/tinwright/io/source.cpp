@@ -11,7 +11,7 @@
 namespace tinwright::io {
 namespace {
 
-constexpr std::array<std::string_view, 13> known_keys = {"layer",  "where",    "sql",  "z",      "xfield",
+constexpr std::array<std::string_view, 13> kKnownKeys = {"layer",  "where",    "sql",  "z",      "xfield",
                                                          "yfield", "vertices", "band", "stride", "crs",
                                                          "format", "as",       "oo"};
 
@@ -21,7 +21,7 @@ constexpr std::array<std::string_view, 13> known_keys = {"layer",  "where",    "
 
 /// The known key that `text` starts with, followed by "="; empty when there is none.
 std::string_view leading_key(std::string_view text) {
-    for (const std::string_view key : known_keys) {
+    for (const std::string_view key : kKnownKeys) {
         if (text.size() > key.size() && text.starts_with(key) && text[key.size()] == '=') {
             return key;
         }

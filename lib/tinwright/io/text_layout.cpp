@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <utility>
 
 #include "tinwright/geometry/error.hpp"
 #include "tinwright/io/column_names.hpp"
@@ -13,13 +14,13 @@
 namespace tinwright::io {
 namespace {
 
-constexpr std::size_t rows_looked_at = 50;
+constexpr std::size_t kRowsLookedAt = 50;
 
 std::string_view trimmed(std::string_view text) {
-    constexpr std::string_view blanks = " \t\r\v\f";
-    const std::size_t first = text.find_first_not_of(blanks);
+    constexpr std::string_view kBlanks = " \t\r\v\f";
+    const std::size_t first = text.find_first_not_of(kBlanks);
     return first == std::string_view::npos ? std::string_view()
-                                           : text.substr(first, text.find_last_not_of(blanks) - first + 1);
+                                           : text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
 }
 
 /// A CRLF file's line without its carriage return.
@@ -42,7 +43,7 @@ struct Beginning {
 Beginning find_beginning(std::string_view head) {
     Beginning beginning;
     std::size_t offset = head.starts_with("\xEF\xBB\xBF") ? 3 : 0;
-    for (std::int64_t number = 1; offset < head.size() && beginning.rows.size() <= rows_looked_at; ++number) {
+    for (std::int64_t number = 1; offset < head.size() && beginning.rows.size() <= kRowsLookedAt; ++number) {
         const std::size_t end = std::min(head.find('\n', offset), head.size());
         const Line line{without_return(head.substr(offset, end - offset)), offset, number};
         if (!is_blank_or_comment(line.text)) {
@@ -72,18 +73,18 @@ std::size_t count_numeric(std::string_view line, const TextSplitting& splitting)
 
 /// The splitting under which most rows have `wanted` numbers; the first such one of the list.
 TextSplitting find_splitting(const std::vector<Line>& rows, std::size_t wanted, std::size_t& good_rows) {
-    constexpr std::array<TextSplitting, 9> candidates = {{{'\t', '.'},
-                                                          {';', '.'},
-                                                          {'|', '.'},
-                                                          {',', '.'},
-                                                          {' ', '.'},
-                                                          {'\t', ','},
-                                                          {';', ','},
-                                                          {'|', ','},
-                                                          {' ', ','}}};
-    TextSplitting best = candidates[3];
+    constexpr std::array<TextSplitting, 9> kCandidates = {{{'\t', '.'},
+                                                           {';', '.'},
+                                                           {'|', '.'},
+                                                           {',', '.'},
+                                                           {' ', '.'},
+                                                           {'\t', ','},
+                                                           {';', ','},
+                                                           {'|', ','},
+                                                           {' ', ','}}};
+    TextSplitting best = kCandidates[3];
     good_rows = 0;
-    for (const TextSplitting& candidate : candidates) {
+    for (const TextSplitting& candidate : kCandidates) {
         const auto good =
             static_cast<std::size_t>(std::count_if(rows.begin(), rows.end(), [&](const Line& row) {
                 return count_numeric(row.text, candidate) >= wanted;
@@ -99,8 +100,8 @@ TextSplitting find_splitting(const std::vector<Line>& rows, std::size_t wanted, 
 /// One find_text_layout(): what is known of the file on the way to its columns.
 class LayoutFinder {
   public:
-    LayoutFinder(std::string_view head, const Source& source, const std::string& file)
-        : source_(source), where_(file), beginning_(find_beginning(head)) {}
+    LayoutFinder(std::string_view head, const Source& source, std::string file)
+        : source_(source), where_(std::move(file)), beginning_(find_beginning(head)) {}
 
     TextLayout find() {
         if (beginning_.rows.empty()) {

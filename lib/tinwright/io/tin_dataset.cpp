@@ -5,6 +5,7 @@
 #include <cctype>
 #include <charconv>
 #include <memory>
+#include <utility>
 
 #include <cpl_conv.h>
 #include <cpl_string.h>
@@ -138,11 +139,11 @@ void TinLayer::write() {
     ++written_;
 }
 
-TinDataset::TinDataset(const TinDriver& driver, const std::string& path, const std::string& target,
-                       const Crs& crs, const WriteTinOptions& options, const TinMetadata& counts)
+TinDataset::TinDataset(const TinDriver& driver, std::string path, std::string target, const Crs& crs,
+                       const WriteTinOptions& options, const TinMetadata& counts)
     : driver_(driver),
-      path_(path),
-      target_(target),
+      path_(std::move(path)),
+      target_(std::move(target)),
       crs_(crs),
       metadata_(options.metadata),
       options_(options) {
@@ -152,7 +153,7 @@ TinDataset::TinDataset(const TinDriver& driver, const std::string& path, const s
     }
     CPLSetThreadLocalConfigOption(kDateOption, kPinnedDate);
     CPLErrorReset();
-    dataset_ = driver.gdal->Create(path.c_str(), 0, 0, 0, GDT_Unknown,
+    dataset_ = driver.gdal->Create(path_.c_str(), 0, 0, 0, GDT_Unknown,
                                    as_list(dataset_options(driver, metadata_, options)).List());
     if (dataset_ == nullptr) {
         CPLSetThreadLocalConfigOption(kDateOption, former_date_ ? former_date_->c_str() : nullptr);
@@ -207,8 +208,8 @@ void TinDataset::add_metadata_table() {
     if (driver_.metadata != MetadataPlace::Table || metadata_.empty()) {
         return;
     }
-    constexpr std::array<TinField, 2> fields = {{{"key", OFTString}, {"value", OFTString}}};
-    TinLayer table = add_layer("tinwright_metadata", wkbNone, fields, Tin{});
+    constexpr std::array<TinField, 2> kFields = {{{"key", OFTString}, {"value", OFTString}}};
+    TinLayer table = add_layer("tinwright_metadata", wkbNone, kFields, Tin{});
     for (const auto& [key, value] : metadata_) {
         table.set(0, key);
         table.set(1, value);

@@ -60,7 +60,7 @@ class TinDataset {
   public:
     /// Creates `path`; messages name `target`; `counts` join the metadata of `options`. The references are
     /// kept. Throws IoError.
-    TinDataset(const TinDriver& driver, const std::string& path, const std::string& target, const Crs& crs,
+    TinDataset(const TinDriver& driver, std::string path, std::string target, const Crs& crs,
                const WriteTinOptions& options, const TinMetadata& counts = {});
     /// Closes, without a word, what was not closed.
     ~TinDataset();

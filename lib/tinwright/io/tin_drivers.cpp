@@ -125,9 +125,9 @@ void add_geojson_options(std::vector<std::string>& list, const Tin& tin, const C
     const std::vector<std::string>& given = options.layer_options;
     if (!has_option(given, "COORDINATE_PRECISION") && !has_option(given, "SIGNIFICANT_FIGURES")) {
         // GDAL cuts a last digit off that follows five zeros or nines, which up to five decimals cannot.
-        constexpr int safe_decimals = 5;
-        const int decimals = largest(tin, safe_decimals, decimals_of);
-        list.push_back(decimals <= safe_decimals ? "COORDINATE_PRECISION=" + std::to_string(decimals)
+        constexpr int kSafeDecimals = 5;
+        const int decimals = largest(tin, kSafeDecimals, decimals_of);
+        list.push_back(decimals <= kSafeDecimals ? "COORDINATE_PRECISION=" + std::to_string(decimals)
                                                  : std::string("SIGNIFICANT_FIGURES=17"));
     }
     if (!has_option(given, "NATIVE_DATA")) {

@@ -23,7 +23,7 @@ struct Incline {
 };
 
 Incline incline_of(const Tin& tin, const std::array<VertexId, 3>& v) {
-    constexpr double degrees = 180 / std::numbers::pi;
+    constexpr double kDegrees = 180 / std::numbers::pi;
     const double quantum = tin.lattice.quantum();
     const Key2 a = tin.key(v[0]);
     const double ux = (tin.key(v[1]).x - a.x) * quantum;
@@ -37,9 +37,9 @@ Incline incline_of(const Tin& tin, const std::array<VertexId, 3>& v) {
     const double fall_y = -(wz * ux - uz * wx) / twice_area;
     Incline incline;
     incline.area = twice_area / 2;
-    incline.slope_deg = std::atan(std::hypot(fall_x, fall_y)) * degrees;
+    incline.slope_deg = std::atan(std::hypot(fall_x, fall_y)) * kDegrees;
     incline.is_level = fall_x == 0 && fall_y == 0;
-    const double aspect = std::atan2(fall_x, fall_y) * degrees;
+    const double aspect = std::atan2(fall_x, fall_y) * kDegrees;
     incline.aspect_deg = aspect < 0 ? aspect + 360 : aspect;
     return incline;
 }
@@ -66,15 +66,15 @@ void for_each_edge(const TriangleMesh& mesh, const Visit& visit) {
 }  // namespace
 
 std::size_t write_faces(TinDataset& dataset, const std::string& layer, const Tin& tin, const Tick& tick) {
-    constexpr std::array<TinField, 8> fields = {{{"id", OFTInteger},
-                                                 {"a", OFTInteger},
-                                                 {"b", OFTInteger},
-                                                 {"c", OFTInteger},
-                                                 {"constr", OFTInteger},
-                                                 {"slope", OFTReal},
-                                                 {"aspect", OFTReal},
-                                                 {"area", OFTReal}}};
-    TinLayer faces = dataset.add_layer(layer, wkbPolygon25D, fields, tin);
+    constexpr std::array<TinField, 8> kFields = {{{"id", OFTInteger},
+                                                  {"a", OFTInteger},
+                                                  {"b", OFTInteger},
+                                                  {"c", OFTInteger},
+                                                  {"constr", OFTInteger},
+                                                  {"slope", OFTReal},
+                                                  {"aspect", OFTReal},
+                                                  {"area", OFTReal}}};
+    TinLayer faces = dataset.add_layer(layer, wkbPolygon25D, kFields, tin);
     auto& polygon = faces.geometry<OGRPolygon>();
     polygon.addRingDirectly(new OGRLinearRing);
     for (std::uint32_t f = 0; f < tin.mesh.slot_count(); ++f) {
@@ -115,8 +115,8 @@ std::size_t write_faces(TinDataset& dataset, const std::string& layer, const Tin
 }
 
 std::size_t write_surface(TinDataset& dataset, const std::string& layer, const Tin& tin, const Tick& tick) {
-    constexpr std::array<TinField, 2> fields = {{{"id", OFTInteger}, {"faces", OFTInteger}}};
-    TinLayer surfaces = dataset.add_layer(layer, wkbTINZ, fields, tin);
+    constexpr std::array<TinField, 2> kFields = {{{"id", OFTInteger}, {"faces", OFTInteger}}};
+    TinLayer surfaces = dataset.add_layer(layer, wkbTINZ, kFields, tin);
     auto& surface = surfaces.geometry<OGRTriangulatedSurface>();
     int count = 0;
     for (std::uint32_t f = 0; f < tin.mesh.slot_count(); ++f) {
@@ -142,12 +142,12 @@ std::size_t write_surface(TinDataset& dataset, const std::string& layer, const T
 
 std::size_t write_edges(TinDataset& dataset, const std::string& layer, const Tin& tin, bool constrained_only,
                         const Tick& tick) {
-    constexpr std::array<TinField, 5> fields = {{{"id", OFTInteger},
-                                                 {"a", OFTInteger},
-                                                 {"b", OFTInteger},
-                                                 {"border", OFTInteger},
-                                                 {"constr", OFTInteger}}};
-    const std::span<const TinField> used = std::span(fields).first(constrained_only ? 4 : 5);
+    constexpr std::array<TinField, 5> kFields = {{{"id", OFTInteger},
+                                                  {"a", OFTInteger},
+                                                  {"b", OFTInteger},
+                                                  {"border", OFTInteger},
+                                                  {"constr", OFTInteger}}};
+    const std::span<const TinField> used = std::span(kFields).first(constrained_only ? 4 : 5);
     TinLayer edges = dataset.add_layer(layer, wkbLineString25D, used, tin);
     edges.geometry<OGRLineString>().setNumPoints(2);
     for_each_edge(tin.mesh, [&](HalfEdgeId h) {
@@ -177,9 +177,9 @@ std::size_t write_edges(TinDataset& dataset, const std::string& layer, const Tin
 
 std::size_t write_vertices(TinDataset& dataset, const std::string& layer, const Tin& tin,
                            const VertexOrigins& origins, const Tick& tick) {
-    constexpr std::array<TinField, 4> fields = {
+    constexpr std::array<TinField, 4> kFields = {
         {{"id", OFTInteger}, {"steiner", OFTInteger}, {"source", OFTInteger}, {"feature", OFTInteger64}}};
-    TinLayer vertices = dataset.add_layer(layer, wkbPoint25D, fields, tin);
+    TinLayer vertices = dataset.add_layer(layer, wkbPoint25D, kFields, tin);
     for (std::uint32_t v = 0; v < tin.vertex_count(); ++v) {
         const Point3 p = tin.position({v});
         auto& point = vertices.geometry<OGRPoint>();

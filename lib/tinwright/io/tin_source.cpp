@@ -42,12 +42,12 @@ void append_json(const std::string& text, TinMetadata& metadata) {
 // The member `tinwright` that stands at the head of our GeoJSON files. GDAL's reader gives it only together
 // with a copy of every feature.
 std::string read_geojson_member(const std::string& path) {
-    constexpr std::size_t head_size = 1U << 16U;
+    constexpr std::size_t kHeadSize = 1U << 16U;
     VSILFILE* const file = VSIFOpenL(path.c_str(), "rb");
     if (file == nullptr) {
         return {};
     }
-    std::string head(head_size, '\0');
+    std::string head(kHeadSize, '\0');
     head.resize(VSIFReadL(head.data(), 1, head.size(), file));
     VSIFCloseL(file);
     const std::size_t member = head.find("\"tinwright\":");
@@ -84,7 +84,7 @@ bool may_hold_faces(OGRwkbGeometryType type) {
 }
 
 bool holds_triangles_only(OGRLayer& layer) {
-    constexpr int looked_at = 1000;
+    constexpr int kLookedAt = 1000;
     if (!may_hold_faces(layer.GetGeomType())) {
         return false;
     }
@@ -95,7 +95,7 @@ bool holds_triangles_only(OGRLayer& layer) {
     int count = 0;
     bool are_triangles = true;
     layer.ResetReading();
-    while (are_triangles && count < looked_at) {
+    while (are_triangles && count < kLookedAt) {
         const OGRFeatureUniquePtr feature(layer.GetNextFeature());
         if (!feature) {
             break;

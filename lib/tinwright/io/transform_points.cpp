@@ -20,13 +20,13 @@ std::vector<std::size_t> transform_points(std::span<Point3> points, const Crs& f
         throw InputError("no transformation from " + from.name() + " to " + to.name() + messages.suffix());
     }
     std::vector<std::size_t> failed;
-    constexpr std::size_t block = 65536;
-    std::vector<double> x(block);
-    std::vector<double> y(block);
-    std::vector<double> z(block);
-    std::vector<int> success(block);
-    for (std::size_t begin = 0; begin < points.size(); begin += block) {
-        const std::size_t count = std::min(block, points.size() - begin);
+    constexpr std::size_t kBlock = 65536;
+    std::vector<double> x(kBlock);
+    std::vector<double> y(kBlock);
+    std::vector<double> z(kBlock);
+    std::vector<int> success(kBlock);
+    for (std::size_t begin = 0; begin < points.size(); begin += kBlock) {
+        const std::size_t count = std::min(kBlock, points.size() - begin);
         for (std::size_t i = 0; i < count; ++i) {
             const Point3& point = points[begin + i];
             x[i] = point.x;

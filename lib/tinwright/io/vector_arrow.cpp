@@ -244,16 +244,16 @@ class ArrowReader {
 
     /// Plain little-endian points here, everything else by GDAL.
     void read_geometry(const unsigned char* wkb, std::size_t size, std::optional<double> z, std::int64_t id) {
-        constexpr std::size_t size_2d = 5 + 2 * sizeof(double);
-        constexpr std::size_t size_3d = 5 + 3 * sizeof(double);
+        constexpr std::size_t kSize2d = 5 + 2 * sizeof(double);
+        constexpr std::size_t kSize3d = 5 + 3 * sizeof(double);
         if constexpr (std::endian::native == std::endian::little) {
-            if (size >= size_2d && wkb[0] == 1) {
+            if (size >= kSize2d && wkb[0] == 1) {
                 const std::uint32_t type = little_endian_32(wkb + 1);
-                const bool is_3d = (type == 0x80000001U || type == 1001U) && size == size_3d;
-                const bool is_2d = type == 1U && size == size_2d && z;
+                const bool is_3d = (type == 0x80000001U || type == 1001U) && size == kSize3d;
+                const bool is_2d = type == 1U && size == kSize2d && z;
                 if (is_3d || is_2d) {
                     Point3 sample;
-                    std::memcpy(&sample, wkb + 5, is_3d ? size_3d - 5 : size_2d - 5);
+                    std::memcpy(&sample, wkb + 5, is_3d ? kSize3d - 5 : kSize2d - 5);
                     sample.z = z.value_or(sample.z);
                     if (std::isfinite(sample.x) && std::isfinite(sample.y) && std::isfinite(sample.z)) {
                         samples_.add(sample, id);

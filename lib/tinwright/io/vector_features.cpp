@@ -117,7 +117,7 @@ void FeatureSamples::add(const OGRGeometry* geometry, std::optional<double> z, s
 std::string FeatureSamples::field_value(const OGRFeature& feature, int field, double& value) const {
     const OGRFieldDefn& definition = *feature.GetDefnRef()->GetFieldDefn(field);
     const std::string name = "field " + quoted(definition.GetNameRef());
-    if (feature.IsFieldSetAndNotNull(field) == 0) {
+    if (!feature.IsFieldSetAndNotNull(field)) {
         return name + " is empty";
     }
     const OGRFieldType type = definition.GetType();
@@ -185,15 +185,15 @@ void read_features(const VectorPlan& plan, const SliceRequest& request, std::vec
     const bool is_counted = layer.TestCapability(OLCFastFeatureCount) != 0;
     const double total = is_counted ? std::max(1.0, static_cast<double>(layer.GetFeatureCount())) : 0.0;
     FeatureSamples samples(plan, points, slice);
-    constexpr int features_between_reports = 16384;
+    constexpr int kFeaturesBetweenReports = 16384;
     double done = 0;
-    int until_report = features_between_reports;
+    int until_report = kFeaturesBetweenReports;
     layer.ResetReading();
     while (const std::unique_ptr<OGRFeature> feature{layer.GetNextFeature()}) {
         samples.add(*feature);
         done += 1;
         if (--until_report == 0) {
-            until_report = features_between_reports;
+            until_report = kFeaturesBetweenReports;
             report_progress(request.progress, total > 0 ? std::min(1.0, done / total) : done / (done + 1e6));
         }
     }

@@ -44,6 +44,18 @@ class Stopwatch {
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+/// Deletes a file at the end, however that comes.
+class ScratchFile {
+  public:
+    explicit ScratchFile(const std::string& path) : path_(path) {}
+    ~ScratchFile() { VSIUnlink(path_.c_str()); }
+    ScratchFile(const ScratchFile&) = delete;
+    ScratchFile& operator=(const ScratchFile&) = delete;
+
+  private:
+    const std::string& path_;
+};
+
 bool has_option(const std::vector<std::string>& options, const std::string& name) {
     return std::any_of(options.begin(), options.end(), [&](const std::string& option) {
         return option.size() > name.size() && option[name.size()] == '=' &&
@@ -273,10 +285,7 @@ void GridWriter::copy(const std::string& path) {
                                 ? std::string(CPLGenerateTempFilename("tinwright")) + ".tif"
                                 : path + ".uncompressed.tif";
     require_free_space(raw, 2 * bytes());
-    struct Remove {
-        const std::string& path;
-        ~Remove() { VSIUnlink(path.c_str()); }
-    } const remove{raw};
+    const ScratchFile scratch(raw);
     CPLStringList list;
     list.SetNameValue("BIGTIFF", "IF_SAFER");
     GDALDatasetUniquePtr source = create(GetGDALDriverManager()->GetDriverByName("GTiff"), raw, list.List());

@@ -130,8 +130,8 @@ class PointCollector : public OGRDefaultConstGeometryVisitor {
 };
 
 Kept compare(const std::vector<Point3>& expected, const std::vector<Point3>& found) {
-    constexpr double position_tolerance = 1e-3;
-    constexpr double elevation_tolerance = 1e-6;
+    constexpr double kPositionTolerance = 1e-3;
+    constexpr double kElevationTolerance = 1e-6;
     Kept kept;
     kept.opens = true;
     kept.geometry = !found.empty();
@@ -147,9 +147,9 @@ Kept compare(const std::vector<Point3>& expected, const std::vector<Point3>& fou
             break;
         }
         const auto has_elevation = [&p](const Point3& q) {
-            return std::abs(q.z - p.z) <= elevation_tolerance;
+            return std::abs(q.z - p.z) <= kElevationTolerance;
         };
-        const bool is_there = distance(*nearest) <= position_tolerance;
+        const bool is_there = distance(*nearest) <= kPositionTolerance;
         kept.positions = kept.positions && is_there;
         kept.elevations =
             kept.elevations &&

@@ -33,6 +33,7 @@ struct EdgeUse {
     [[nodiscard]] bool has_same_edge(const EdgeUse& other) const {
         return low == other.low && high == other.high;
     }
+    // NOLINTNEXTLINE(readability-implicit-bool-conversion): bool is compared as what it is
     friend auto operator<=>(const EdgeUse&, const EdgeUse&) = default;
 };
 
@@ -90,7 +91,7 @@ class FaceAudit {
         found.resize(std::min(found.size(), options_.limit));
         report_.violations.insert(report_.violations.end(), found.begin(), found.end());
     }
-    FaceViolation violation(FaceDefect defect, std::size_t i, Point3 location) const {
+    [[nodiscard]] FaceViolation violation(FaceDefect defect, std::size_t i, Point3 location) const {
         return {defect, number_[i], FaceViolation::kNoFace, location, 0};
     }
     [[nodiscard]] Point3 first_corner(std::size_t face) const { return vertices_[corners_[3 * face]]; }

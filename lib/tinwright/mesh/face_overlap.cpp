@@ -32,11 +32,7 @@ bool is_right_of_an_edge(const KeyBox& box, const Triangle& face) {
            side_of_line(face[2], face[0], box) < 0;
 }
 
-/// Whether `box` is less wide and high, taken together: only then is it worth comparing with the edges.
-bool is_smaller(const KeyBox& box, const KeyBox& other) {
-    return (box.high.x - box.low.x) + (box.high.y - box.low.y) <
-           (other.high.x - other.low.x) + (other.high.y - other.low.y);
-}
+double half_perimeter(const KeyBox& box) { return (box.high.x - box.low.x) + (box.high.y - box.low.y); }
 
 }  // namespace
 
@@ -54,7 +50,11 @@ std::vector<std::uint32_t> find_overlaps(std::span<const Key2> keys, std::span<c
         const Triangle here = triangle(f);
         const KeyBox& box = boxes[f];
         tree.visit_meeting(
-            box, [&](const KeyBox& node) { return is_smaller(node, box) && is_right_of_an_edge(node, here); },
+            box,
+            // Only boxes smaller than the face's are worth comparing with its edges.
+            [&](const KeyBox& node) {
+                return half_perimeter(node) < half_perimeter(box) && is_right_of_an_edge(node, here);
+            },
             [&](std::uint32_t other) {
                 if (other < f && do_interiors_meet(here, triangle(other))) {
                     found[f] = other;

@@ -50,7 +50,7 @@ TriangleMesh::Faces make_unlinked_faces(std::size_t vertex_count, std::span<cons
 
 /// A half-edge as seen from the lesser end of its edge.
 struct EdgeUse {
-    std::uint32_t greater_end;
+    std::uint32_t greater_end = 0;
     HalfEdgeId half_edge;
 };
 

@@ -70,7 +70,10 @@ inline double doubled_area(Key2 a, Key2 b, Key2 c) {
     return static_cast<double>(product(b.x - a.x, c.y - a.y) - product(b.y - a.y, c.x - a.x));
 }
 
-inline FacePlane::FacePlane(const std::array<SurfaceCorner, 3>& corner) : corner_(corner) {
+inline FacePlane::FacePlane(const std::array<SurfaceCorner, 3>& corner)
+    : corner_(corner),
+      lowest_(std::min(std::min(corner[0].z, corner[1].z), corner[2].z)),
+      highest_(std::max(std::max(corner[0].z, corner[1].z), corner[2].z)) {
     const auto& [a, b, c] = corner_;
     const Key2 ab{b.key.x - a.key.x, b.key.y - a.key.y};
     const Key2 ac{c.key.x - a.key.x, c.key.y - a.key.y};
@@ -82,8 +85,6 @@ inline FacePlane::FacePlane(const std::array<SurfaceCorner, 3>& corner) : corner
     const double ab_z = b.z - a.z;
     const double ac_z = c.z - a.z;
     gradient_ = {(ab_z * ac.y - ac_z * ab.y) * inverse, (ac_z * ab.x - ab_z * ac.x) * inverse};
-    lowest_ = std::min(std::min(a.z, b.z), c.z);
-    highest_ = std::max(std::max(a.z, b.z), c.z);
 }
 
 inline double FacePlane::needle_value(Key2 at) const {

@@ -1,6 +1,7 @@
 #include "tinwright/surface/grid.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -26,7 +27,8 @@ struct Steps {
 };
 
 std::optional<Steps> find_steps(double low, double high, double cell) {
-    const Decimal decimal[] = {shortest_decimal(low), shortest_decimal(high), shortest_decimal(cell)};
+    const std::array<Decimal, 3> decimal{shortest_decimal(low), shortest_decimal(high),
+                                         shortest_decimal(cell)};
     Steps steps;
     steps.exponent = std::min({decimal[0].exponent, decimal[1].exponent, decimal[2].exponent});
     const auto low_steps = whole_steps(decimal[0], steps.exponent);
