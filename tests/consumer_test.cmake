@@ -10,12 +10,15 @@ endfunction()
 file(REMOVE_RECURSE ${SCRATCH})
 run("installing" ${CMAKE_COMMAND} --install ${BUILD} --config ${CONFIG} --prefix ${SCRATCH}/prefix)
 
-# Nothing installed may point back into the source or build tree.
-file(GLOB_RECURSE configs ${SCRATCH}/prefix/*.cmake)
+# The package must work wherever it is moved to.
+file(GLOB configs ${SCRATCH}/prefix/lib*/cmake/tinwright/*.cmake ${SCRATCH}/prefix/lib*/*/cmake/tinwright/*.cmake)
+if(NOT configs)
+  message(FATAL_ERROR "no package config was installed")
+endif()
 foreach(config IN LISTS configs)
   file(READ ${config} text)
   string(FIND "${text}" "${BUILD}" found)
-  if(NOT found EQUAL -1 AND NOT text MATCHES "${SCRATCH}")
+  if(NOT found EQUAL -1)
     message(FATAL_ERROR "${config} mentions the build folder")
   endif()
 endforeach()
