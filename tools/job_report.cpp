@@ -1,6 +1,7 @@
 #include "job_report.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 
@@ -36,9 +37,9 @@ std::string counted(std::size_t count, const std::string& singular, const std::s
 }
 
 std::string fixed(double value, int decimals) {
-    char text[64];
-    std::snprintf(text, sizeof text, "%.*f", decimals, value);
-    return text;
+    std::array<char, 64> text;
+    std::snprintf(text.data(), text.size(), "%.*f", decimals, value);
+    return text.data();
 }
 
 JsonValue raster_json(const RasterReport& raster) {
@@ -126,9 +127,9 @@ std::string tin_line(const JobReport& report, const Surface& surface) {
 
 /// Enough digits for a cell size; more are the noise of the raster it was taken from.
 std::string length_text(double value) {
-    char text[48];
-    std::snprintf(text, sizeof text, "%.10g", value);
-    return text;
+    std::array<char, 48> text;
+    std::snprintf(text.data(), text.size(), "%.10g", value);
+    return text.data();
 }
 
 std::string raster_line(const RasterReport& raster) {
@@ -148,9 +149,9 @@ std::string quantum_line(const Lattice& lattice) {
     if (lattice.decimals() >= 0) {
         return decimal_text(lattice.quantum());
     }
-    char text[48];
-    std::snprintf(text, sizeof text, "2^%d, about %.1e", lattice.exponent(), lattice.quantum());
-    return std::string(text) + (lattice.is_exact() ? "" : "; coordinates are rounded to it");
+    std::array<char, 48> text;
+    std::snprintf(text.data(), text.size(), "2^%d, about %.1e", lattice.exponent(), lattice.quantum());
+    return std::string(text.data()) + (lattice.is_exact() ? "" : "; coordinates are rounded to it");
 }
 
 std::string crs_line(const Surface& surface) {

@@ -21,7 +21,8 @@ class HelpFormatter : public CLI::Formatter {
     HelpFormatter(std::string usage, std::vector<std::string> examples)
         : usage_(std::move(usage)), examples_(std::move(examples)) {}
 
-    std::string make_help(const CLI::App* app, std::string, CLI::AppFormatMode) const override {
+    std::string make_help(const CLI::App* app, std::string /*name*/,
+                          CLI::AppFormatMode /*mode*/) const override {
         std::ostringstream text;
         text << "Usage: " << app->get_name() << " " << usage_ << "\n" << app->get_description() << "\n\n";
         for (const CLI::Option* option : app->get_options()) {

@@ -33,9 +33,9 @@ MeasureWords words_of(FaceMeasure measure) {
 }
 
 std::string short_number(double value) {
-    char text[48];
-    std::snprintf(text, sizeof text, "%.6g", value);
-    return text;
+    std::array<char, 48> text;
+    std::snprintf(text.data(), text.size(), "%.6g", value);
+    return text.data();
 }
 
 std::pair<double, double> z_range(const Tin& tin) {
@@ -72,12 +72,12 @@ std::string histogram_lines(const Histogram& histogram, const char* unit) {
     }
     std::string lines;
     for (std::size_t i = first; i < last; ++i) {
-        char line[96];
+        std::array<char, 96> line;
         const std::string range =
             decimal_text(histogram.bounds[i]) + " to " + decimal_text(histogram.bounds[i + 1]);
-        std::snprintf(line, sizeof line, "    %16s%s %10zu", range.c_str(), unit, histogram.counts[i]);
+        std::snprintf(line.data(), line.size(), "    %16s%s %10zu", range.c_str(), unit, histogram.counts[i]);
         const std::size_t bar = (histogram.counts[i] * kBar + most - 1) / most;
-        lines += line + (bar == 0 ? std::string() : " " + std::string(bar, '#')) + "\n";
+        lines += line.data() + (bar == 0 ? std::string() : " " + std::string(bar, '#')) + "\n";
     }
     return lines;
 }

@@ -71,24 +71,23 @@ std::string metadata_value(const io::TinMetadata& metadata, const std::string& k
 
 bool is_existing_tin(const SurfaceRequest& request) {
     const std::vector<io::Source>& sources = request.sources.sources;
-    for (const io::Source& source : sources) {
-        if (!looks_like_tin(source)) {
-            continue;
-        }
-        const std::string name = io::quoted(source.path);
-        if (sources.size() > 1) {
-            throw UsageError(name +
-                             " is a TIN and cannot be mixed with other sources: give it alone, or add "
-                             ",as=samples to take its vertices as samples");
-        }
-        const std::string option = request.triangulation.option_for_samples_only();
-        if (!option.empty()) {
-            throw UsageError(name + " is a TIN, whose faces are used as they are: " + option +
-                             " does not apply; add ,as=samples to triangulate its vertices anew");
-        }
-        return true;
+    const auto tin = std::find_if(sources.begin(), sources.end(),
+                                  [](const io::Source& source) { return looks_like_tin(source); });
+    if (tin == sources.end()) {
+        return false;
     }
-    return false;
+    const std::string name = io::quoted(tin->path);
+    if (sources.size() > 1) {
+        throw UsageError(name +
+                         " is a TIN and cannot be mixed with other sources: give it alone, or add "
+                         ",as=samples to take its vertices as samples");
+    }
+    const std::string option = request.triangulation.option_for_samples_only();
+    if (!option.empty()) {
+        throw UsageError(name + " is a TIN, whose faces are used as they are: " + option +
+                         " does not apply; add ,as=samples to triangulate its vertices anew");
+    }
+    return true;
 }
 
 Surface triangulate_sources(const SurfaceRequest& request, Console& console) {

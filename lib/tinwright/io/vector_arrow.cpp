@@ -17,38 +17,22 @@
 namespace tinwright::io {
 namespace {
 
-struct Stream : ArrowArrayStream {
-    Stream() : ArrowArrayStream() {}
-    Stream(const Stream&) = delete;
-    Stream& operator=(const Stream&) = delete;
-    ~Stream() {
-        if (release != nullptr) {
-            release(this);
+/// A structure of the Arrow C interface, which knows how to release itself.
+template <class Arrow>
+struct Released : Arrow {
+    Released() : Arrow() {}
+    Released(const Released&) = delete;
+    Released& operator=(const Released&) = delete;
+    ~Released() {
+        if (this->release != nullptr) {
+            this->release(this);
         }
     }
 };
 
-struct Schema : ArrowSchema {
-    Schema() : ArrowSchema() {}
-    Schema(const Schema&) = delete;
-    Schema& operator=(const Schema&) = delete;
-    ~Schema() {
-        if (release != nullptr) {
-            release(this);
-        }
-    }
-};
-
-struct Batch : ArrowArray {
-    Batch() : ArrowArray() {}
-    Batch(const Batch&) = delete;
-    Batch& operator=(const Batch&) = delete;
-    ~Batch() {
-        if (release != nullptr) {
-            release(this);
-        }
-    }
-};
+using Stream = Released<ArrowArrayStream>;
+using Schema = Released<ArrowSchema>;
+using Batch = Released<ArrowArray>;
 
 /// Where the columns that we read are among the stream's children, -1 for none.
 struct Columns {
