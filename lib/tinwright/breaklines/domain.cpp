@@ -7,7 +7,9 @@
 #include <tuple>
 #include <vector>
 
+#include "tinwright/geometry/constructions.hpp"
 #include "tinwright/geometry/decimal.hpp"
+#include "tinwright/mesh/border.hpp"
 
 namespace tinwright {
 
@@ -27,22 +29,15 @@ struct Opening {
 };
 
 double squared_length(const Tin& tin, HalfEdgeId h) {
-    const Key2 a = tin.key(tin.mesh.origin(h));
-    const Key2 b = tin.key(tin.mesh.destination(h));
-    const double dx = b.x - a.x;
-    const double dy = b.y - a.y;
-    return dx * dx + dy * dy;
+    return squared_distance(tin.key(tin.mesh.origin(h)), tin.key(tin.mesh.destination(h)));
 }
 
 /// Height of a face over one of its edges, by the edge's length.
 double height_ratio(const Tin& tin, HalfEdgeId h) {
-    const Key2 a = tin.key(tin.mesh.origin(h));
-    const Key2 b = tin.key(tin.mesh.destination(h));
-    const Key2 c = tin.key(tin.mesh.origin(previous(h)));
-    // In 128 bits, which hold it: differences of keys are whole numbers below 2^45.
-    const Int128 doubled_area = static_cast<Int128>(b.x - a.x) * static_cast<Int128>(c.y - a.y) -
-                                static_cast<Int128>(b.y - a.y) * static_cast<Int128>(c.x - a.x);
-    return static_cast<double>(doubled_area) / squared_length(tin, h);
+    const TriangleMesh& mesh = tin.mesh;
+    return doubled_area(tin.key(mesh.origin(h)), tin.key(mesh.destination(h)),
+                        tin.key(mesh.origin(previous(h)))) /
+           squared_length(tin, h);
 }
 
 /// `length` in keys; where it is decimal and so is the lattice, exactly the number meant.
@@ -59,16 +54,10 @@ std::size_t open_border(Tin& tin, const RankOf& rank_of) {
     TriangleMesh& mesh = tin.mesh;
     std::vector<bool> is_on_border(mesh.vertex_count());
     std::priority_queue<Opening> queue;
-    std::vector<HalfEdgeId> border;
-    for (std::uint32_t f = 0; f < mesh.slot_count(); ++f) {
-        for (unsigned corner = 0; corner < 3; ++corner) {
-            const HalfEdgeId h = half_edge({f}, corner);
-            if (mesh.is_terrain({f}) && mesh.is_border(h)) {
-                border.push_back(h);
-                is_on_border[mesh.origin(h).value] = true;
-                is_on_border[mesh.destination(h).value] = true;
-            }
-        }
+    const std::vector<HalfEdgeId> border = find_border(mesh);
+    for (const HalfEdgeId h : border) {
+        is_on_border[mesh.origin(h).value] = true;
+        is_on_border[mesh.destination(h).value] = true;
     }
     const auto consider = [&](HalfEdgeId h) {
         const VertexId apex = mesh.origin(previous(h));
@@ -130,13 +119,8 @@ std::size_t drop_long_faces(Tin& tin, double length) {
 }
 
 void constrain_border(Tin& tin) {
-    for (std::uint32_t f = 0; f < tin.mesh.slot_count(); ++f) {
-        for (unsigned corner = 0; corner < 3; ++corner) {
-            const HalfEdgeId h = half_edge({f}, corner);
-            if (tin.mesh.is_terrain({f}) && tin.mesh.is_border(h)) {
-                tin.mesh.set_constrained(h, true);
-            }
-        }
+    for (const HalfEdgeId h : find_border(tin.mesh)) {
+        tin.mesh.set_constrained(h, true);
     }
 }
 

@@ -123,6 +123,8 @@ class ArrowReader {
         }
         CPLStringList options;
         options.SetNameValue("INCLUDE_FID", "YES");
+        // Batches small enough that their memory is used again rather than mapped anew.
+        options.SetNameValue("MAX_FEATURES_IN_BATCH", "8192");
         Stream stream;
         if (!plan_.layer->GetArrowStream(&stream, options.List()) || !find_columns(stream)) {
             return false;

@@ -16,6 +16,7 @@
 #include <tbb/task_group.h>
 
 #include "tinwright/geometry/error.hpp"
+#include "tinwright/geometry/large_vector.hpp"
 #include "tinwright/geometry/threads.hpp"
 #include "tinwright/io/atomic_output.hpp"
 #include "tinwright/io/gdal_session.hpp"
@@ -196,7 +197,7 @@ void GridWriter::fill(GDALDataset& dataset, double progress_share) {
         converter = std::make_unique<ScanConverter>(tin_, grid_, band_rows);
     }
     const std::int64_t bands = converter->band_count();
-    std::array<std::vector<Value>, 2> buffer;
+    std::array<LargeVector<Value>, 2> buffer;
     const auto rows_of = [&](std::int64_t band) {
         const auto [first, end] = converter->band_rows(band);
         return std::span(buffer[static_cast<std::size_t>(band % 2)])

@@ -24,9 +24,8 @@ struct WriteGridOptions {
     bool overwrite = false;
     std::string preview = {};  ///< PNG hillshade to write beside it; empty: none
     std::vector<std::pair<std::string, std::string>> metadata = {};
-    int threads = 1;  ///< 0: all processors; the bytes do not depend on it
-    std::int64_t band_bytes =
-        std::int64_t{64} * 1024 * 1024;  ///< memory of one band of rows; two are in use at a time
+    int threads = 1;                                   ///< 0: all processors; the bytes do not depend on it
+    std::int64_t band_bytes = std::int64_t{4} << 20U;  ///< of one band of rows; two are in use at a time
     Progress progress = {};
 };
 

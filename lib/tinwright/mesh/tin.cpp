@@ -1,17 +1,16 @@
 #include "tinwright/mesh/tin.hpp"
 
+#include "tinwright/mesh/border.hpp"
+
 namespace tinwright {
 
 Box Tin::bounds() const {
-    // Rounding is monotone, so the box of the keys becomes the box of the positions.
+    // Rounding is monotone, so the box of the keys becomes the box of the positions; and what is extreme is
+    // on the border.
     Box of_keys;
-    for (std::uint32_t f = 0; f < mesh.slot_count(); ++f) {
-        if (!mesh.is_terrain({f})) {
-            continue;
-        }
-        for (const VertexId v : mesh.face({f}).vertex) {
-            of_keys.add(key(v).x, key(v).y);
-        }
+    for (const HalfEdgeId h : find_border(mesh)) {
+        const Key2 at = key(mesh.origin(h));
+        of_keys.add(at.x, at.y);
     }
     if (of_keys.is_empty()) {
         return {};

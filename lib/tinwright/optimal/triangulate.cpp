@@ -11,6 +11,7 @@
 #include <tbb/task_arena.h>
 
 #include "tinwright/delaunay/delaunay.hpp"
+#include "tinwright/geometry/constructions.hpp"
 #include "tinwright/geometry/decimal.hpp"
 #include "tinwright/geometry/threads.hpp"
 
@@ -73,10 +74,8 @@ HullAndDetail examine(const Tin& tin) {
                 const Key2 a = tin.key(mesh.vertex({f}, 0));
                 const Key2 b = tin.key(mesh.vertex({f}, 1));
                 const Key2 c = tin.key(mesh.vertex({f}, 2));
-                const auto square = [](Key2 p, Key2 q) {
-                    return (p.x - q.x) * (p.x - q.x) + (p.y - q.y) * (p.y - q.y);
-                };
-                const double least = std::min(std::min(square(a, b), square(b, c)), square(c, a));
+                const double least = std::min(std::min(squared_distance(a, b), squared_distance(b, c)),
+                                              squared_distance(c, a));
                 if (least < seen.closest) {
                     seen.closest = least;
                     seen.at = {f};

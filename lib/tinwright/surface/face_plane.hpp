@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "tinwright/geometry/decimal.hpp"
+#include "tinwright/geometry/constructions.hpp"
 #include "tinwright/geometry/lattice.hpp"
 
 namespace tinwright {
@@ -61,14 +61,6 @@ class FacePlane {
     double highest_ = 0;
     bool is_needle_ = false;
 };
-
-/// Twice the signed area of a triangle of keys, rounded once.
-inline double doubled_area(Key2 a, Key2 b, Key2 c) {
-    const auto product = [](double left, double right) {
-        return static_cast<Int128>(left) * static_cast<Int128>(right);
-    };
-    return static_cast<double>(product(b.x - a.x, c.y - a.y) - product(b.y - a.y, c.x - a.x));
-}
 
 inline FacePlane::FacePlane(const std::array<SurfaceCorner, 3>& corner)
     : corner_(corner),
