@@ -37,7 +37,7 @@ std::string counted(std::size_t count, const std::string& singular, const std::s
 }
 
 std::string fixed(double value, int decimals) {
-    std::array<char, 64> text;
+    std::array<char, 64> text{};
     std::snprintf(text.data(), text.size(), "%.*f", decimals, value);
     return text.data();
 }
@@ -127,7 +127,7 @@ std::string tin_line(const JobReport& report, const Surface& surface) {
 
 /// Enough digits for a cell size; more are the noise of the raster it was taken from.
 std::string length_text(double value) {
-    std::array<char, 48> text;
+    std::array<char, 48> text{};
     std::snprintf(text.data(), text.size(), "%.10g", value);
     return text.data();
 }
@@ -149,7 +149,7 @@ std::string quantum_line(const Lattice& lattice) {
     if (lattice.decimals() >= 0) {
         return decimal_text(lattice.quantum());
     }
-    std::array<char, 48> text;
+    std::array<char, 48> text{};
     std::snprintf(text.data(), text.size(), "2^%d, about %.1e", lattice.exponent(), lattice.quantum());
     return std::string(text.data()) + (lattice.is_exact() ? "" : "; coordinates are rounded to it");
 }

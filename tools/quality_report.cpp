@@ -33,7 +33,7 @@ MeasureWords words_of(FaceMeasure measure) {
 }
 
 std::string short_number(double value) {
-    std::array<char, 48> text;
+    std::array<char, 48> text{};
     std::snprintf(text.data(), text.size(), "%.6g", value);
     return text.data();
 }
@@ -72,7 +72,7 @@ std::string histogram_lines(const Histogram& histogram, const char* unit) {
     }
     std::string lines;
     for (std::size_t i = first; i < last; ++i) {
-        std::array<char, 96> line;
+        std::array<char, 96> line{};
         const std::string range =
             decimal_text(histogram.bounds[i]) + " to " + decimal_text(histogram.bounds[i + 1]);
         std::snprintf(line.data(), line.size(), "    %16s%s %10zu", range.c_str(), unit, histogram.counts[i]);

@@ -133,7 +133,7 @@ void delete_virtual(const std::string& path) {
 }
 
 std::string in_gigabytes(double bytes) {
-    std::array<char, 48> text;
+    std::array<char, 48> text{};
     std::snprintf(text.data(), text.size(), bytes < 1e8 ? "%.3f GB" : "%.1f GB", bytes * 1e-9);
     return text.data();
 }

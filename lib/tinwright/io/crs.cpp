@@ -30,7 +30,7 @@ bool is_placeholder(const OGRSpatialReference& system) {
         return true;
     }
     const bool nameless = name.empty() || name.starts_with("unknown") || name.starts_with("unnamed");
-    return system.IsEmpty() != 0 || (system.IsLocal() && nameless);
+    return system.IsEmpty() || (system.IsLocal() != 0 && nameless);
 }
 
 /// One spelling a unit, whichever driver or authority wrote it.

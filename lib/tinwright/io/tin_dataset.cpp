@@ -29,7 +29,7 @@ CPLStringList as_list(const std::vector<std::string>& options) {
 }
 
 void append_number(std::string& text, double value) {
-    std::array<char, 32> digits;
+    std::array<char, 32> digits{};
     const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value);
     text.append(digits.data(), end.ptr);
 }

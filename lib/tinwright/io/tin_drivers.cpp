@@ -110,7 +110,7 @@ void append_json_string(std::string& json, std::string_view text) {
             json += '\\';
             json += c;
         } else if (static_cast<unsigned char>(c) < 0x20) {
-            std::array<char, 8> escape;
+            std::array<char, 8> escape{};
             std::snprintf(escape.data(), escape.size(), "\\u%04x", static_cast<unsigned>(c));
             json += escape.data();
         } else {

@@ -77,7 +77,7 @@ void TinMaker::number_vertices() {
 void TinMaker::orient_faces() {
     corners_.reserve(file_.corners.size());
     for (std::size_t f = 0; f < file_.face_ids.size(); ++f) {
-        std::array<VertexId, 3> v;
+        std::array<VertexId, 3> v{};
         for (std::size_t i = 0; i < 3; ++i) {
             v[i] = {vertex_of_[file_.corners[3 * f + i]]};
         }

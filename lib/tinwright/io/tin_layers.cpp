@@ -82,7 +82,7 @@ std::size_t write_faces(TinDataset& dataset, const std::string& layer, const Tin
             continue;
         }
         unsigned corner = first_corner(tin.mesh.face({f}));
-        std::array<VertexId, 3> v;
+        std::array<VertexId, 3> v{};
         std::array<Point3, 3> p;
         int constrained = 0;
         for (unsigned i = 0; i < 3; ++i, corner = next_corner(corner)) {

@@ -114,7 +114,7 @@ void FeatureSamples::add(const OGRGeometry* geometry, std::optional<double> z, s
     }
 }
 
-std::string FeatureSamples::field_value(const OGRFeature& feature, int field, double& value) const {
+std::string FeatureSamples::field_value(const OGRFeature& feature, int field, double& value) {
     const OGRFieldDefn& definition = *feature.GetDefnRef()->GetFieldDefn(field);
     const std::string name = "field " + quoted(definition.GetNameRef());
     if (!feature.IsFieldSetAndNotNull(field)) {

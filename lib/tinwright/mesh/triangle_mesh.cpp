@@ -51,7 +51,7 @@ TriangleMesh::Faces make_unlinked_faces(std::size_t vertex_count, std::span<cons
 /// A half-edge as seen from the lesser end of its edge.
 struct EdgeUse {
     std::uint32_t greater_end = 0;
-    HalfEdgeId half_edge;
+    HalfEdgeId half_edge{};
 };
 
 VertexId origin_of(const TriangleMesh::Faces& faces, HalfEdgeId h) {
