@@ -1,7 +1,9 @@
 #include "invented_terrain.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 
 namespace invented {
 namespace {
@@ -109,8 +111,8 @@ std::vector<Position> outline(Position centre, double reach, int vertices, Ratio
         // Rays through points evenly spread on a square: no sine, no cosine.
         const double s = 8.0 * i / vertices;
         const double along = s - 2 * std::floor(s / 2) - 1;
-        const int edge = static_cast<int>(s / 2);
-        const Position on_square[] = {{1, along}, {-along, 1}, {-1, -along}, {along, -1}};
+        const auto edge = static_cast<std::size_t>(s / 2);
+        const std::array<Position, 4> on_square{{{1, along}, {-along, 1}, {-1, -along}, {along, -1}}};
         double inside = 0;
         double outside = reach;
         for (int step = 0; step < 48; ++step) {

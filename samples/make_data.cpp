@@ -1,7 +1,9 @@
 // Makes the files of samples/data: an invented survey of an invented valley (invented_terrain.hpp).
 //   make_data FOLDER          writes survey.csv, road_pnezd.txt and terrain.gpkg
 //   make_data --check FOLDER  fails when the folder holds anything else than what would be written
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdio>
 #include <fstream>
 #include <iostream>
@@ -67,7 +69,7 @@ bool is_under_road(Position p) {
 }
 
 void survey_road(Survey& survey) {
-    Line lines[] = {{"road edge", {}}, {"road edge", {}}, {"toe", {}}, {"toe", {}}};
+    std::array<Line, 4> lines{{{"road edge", {}}, {"road edge", {}}, {"toe", {}}, {"toe", {}}}};
     for (double y = -10; y < invented::kHeight + 10; y += 12) {
         const Position middle = invented::road(y);
         if (!invented::is_in_survey_area(middle)) {
@@ -75,7 +77,7 @@ void survey_road(Survey& survey) {
         }
         survey.shots.push_back(make_shot(middle, invented::road_elevation(y), "RC"));
         const Position right = invented::road_right(y);
-        for (const int side : {0, 1}) {
+        for (const std::size_t side : {0U, 1U}) {
             const double signed_width = (side == 0 ? -1 : 1) * invented::kRoadHalfWidth;
             const Position edge{middle.x + signed_width * right.x, middle.y + signed_width * right.y};
             lines[side].vertices.push_back(make_shot(edge, invented::road_elevation(y) - 0.11, "RE"));
@@ -91,13 +93,14 @@ void survey_road(Survey& survey) {
 
 /// Bed and banks, interrupted by the lake and by the culvert.
 void survey_stream(Survey& survey) {
-    const struct {
+    struct Part {
         double offset;
         const char* kind;
         const char* code;
-    } parts[] = {{0, "stream bed", "SB"},
-                 {invented::kBankDistance, "stream bank", "SK"},
-                 {-invented::kBankDistance, "stream bank", "SK"}};
+    };
+    const std::array<Part, 3> parts{{{0, "stream bed", "SB"},
+                                     {invented::kBankDistance, "stream bank", "SK"},
+                                     {-invented::kBankDistance, "stream bank", "SK"}}};
     for (const auto& part : parts) {
         Line line{part.kind, {}};
         const auto finish = [&] {
@@ -162,10 +165,10 @@ void survey_ground(Survey& survey) {
 
 std::string csv_text(const Survey& survey) {
     std::string text = "x,y,z,code\n";
-    char row[128];
+    std::array<char, 128> row{};
     for (const Shot& s : survey.shots) {
-        std::snprintf(row, sizeof row, "%.2f,%.2f,%.2f,%s\n", s.x, s.y, s.z, s.code.c_str());
-        text += row;
+        std::snprintf(row.data(), row.size(), "%.2f,%.2f,%.2f,%s\n", s.x, s.y, s.z, s.code.c_str());
+        text += row.data();
     }
     return text;
 }
@@ -173,12 +176,13 @@ std::string csv_text(const Survey& survey) {
 /// Point number, northing, easting, elevation, description: what a total station exports.
 std::string pnezd_text(const Survey& survey) {
     std::string text;
-    char row[128];
+    std::array<char, 128> row{};
     int number = 1001;
     for (const Shot& s : survey.shots) {
         if (s.code == "RC" || s.code == "RE" || s.code == "TO") {
-            std::snprintf(row, sizeof row, "%d,%.2f,%.2f,%.2f,%s\n", number++, s.y, s.x, s.z, s.code.c_str());
-            text += row;
+            std::snprintf(row.data(), row.size(), "%d,%.2f,%.2f,%.2f,%s\n", number++, s.y, s.x, s.z,
+                          s.code.c_str());
+            text += row.data();
         }
     }
     return text;
@@ -219,8 +223,8 @@ void write_geopackage(const Survey& survey, const std::string& path) {
     OGRSpatialReference crs;
     crs.importFromEPSG(kEpsg);
     const auto make_layer = [&](const char* name, OGRwkbGeometryType type, const char* field) {
-        const char* const options[] = {"SPATIAL_INDEX=NO", nullptr};
-        OGRLayer* layer = file->CreateLayer(name, &crs, type, const_cast<char**>(options));
+        const std::array<const char*, 2> options{"SPATIAL_INDEX=NO", nullptr};
+        OGRLayer* layer = file->CreateLayer(name, &crs, type, const_cast<char**>(options.data()));
         if (layer == nullptr) {
             throw std::runtime_error(std::string("cannot create layer ") + name);
         }
