@@ -1,6 +1,7 @@
 #include "tinwright/delaunay/sample_vertices.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <compare>
 #include <limits>
@@ -9,7 +10,6 @@
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_reduce.h>
 
 #include "tinwright/geometry/curve.hpp"
 #include "tinwright/geometry/decimal.hpp"
@@ -139,8 +139,9 @@ void for_each_index(std::size_t count, const Body& body) {
 }
 
 // Fills keys, z and sample, one entry a sample, in curve order; samples at one key by ascending index.
-// Keys are computed twice rather than kept: a pass over fresh memory costs more than the arithmetic.
-void order_samples(std::span<const Point3> samples, SampleVertices& out) {
+// Returns a position before which no key is repeated, most often the number of samples. Keys are computed
+// twice rather than kept: a pass over fresh memory costs more than the arithmetic.
+std::size_t order_samples(std::span<const Point3> samples, SampleVertices& out) {
     const auto key_of = [&](std::size_t i) { return out.lattice.key({samples[i].x, samples[i].y}); };
     const Key2 corner = out.lattice.key({out.bounds.x_max, out.bounds.y_max});
     const std::size_t count = samples.size();
@@ -154,30 +155,24 @@ void order_samples(std::span<const Point3> samples, SampleVertices& out) {
     out.keys.resize(count);
     out.z.resize(count);
     out.sample.resize(count);
+    std::atomic<std::size_t> first_repeated = count;
     for_each_index(count, [&](std::size_t i) {
         // Samples come from all over memory: asking for them ahead hides part of the wait.
         constexpr std::size_t kAhead = 24;
-        __builtin_prefetch(&samples[packing.index(words[std::min(i + kAhead, count - 1)])]);
+        const Point3& ahead = samples[packing.index(words[std::min(i + kAhead, count - 1)])];
+        __builtin_prefetch(&ahead.x);
+        __builtin_prefetch(&ahead.z);
         const std::uint32_t sample = packing.index(words[i]);
         out.keys[i] = key_of(sample);
         out.z[i] = samples[sample].z;
         out.sample[i] = sample;
-    });
-}
-
-// Index of the first key that equals the one after it; their number if there is none.
-std::size_t find_first_repeated(std::span<const Key2> keys) {
-    return tbb::parallel_reduce(
-        tbb::blocked_range<std::size_t>(0, keys.size(), kGrain), keys.size(),
-        [&](const tbb::blocked_range<std::size_t>& range, std::size_t first) {
-            for (std::size_t i = range.begin(); i != range.end() && i < first && i + 1 < keys.size(); ++i) {
-                if (keys[i] == keys[i + 1]) {
-                    return i;
-                }
+        if (i + 1 < count && packing.is_same_place(words[i], words[i + 1])) {
+            std::size_t known = first_repeated;
+            while (i < known && !first_repeated.compare_exchange_weak(known, i)) {
             }
-            return first;
-        },
-        [](std::size_t a, std::size_t b) { return std::min(a, b); });
+        }
+    });
+    return first_repeated;
 }
 
 }  // namespace
@@ -192,11 +187,10 @@ SampleVertices make_sample_vertices(std::span<const Point3> samples, const Dupli
     SampleVertices out;
     out.lattice = found.lattice;
     out.bounds = found.bounds;
-    order_samples(samples, out);
+    std::size_t vertices = order_samples(samples, out);
 
     // Runs of equal keys shrink to one vertex each; nothing moves as long as there is none.
     Merger merger(samples, options, out);
-    std::size_t vertices = find_first_repeated(out.keys);
     for (std::size_t first = vertices; first < out.keys.size();) {
         std::size_t last = first + 1;
         while (last < out.keys.size() && out.keys[last] == out.keys[first]) {

@@ -28,7 +28,9 @@ constexpr double kStepLimit = 2251799813685248.0;
 
 bool is_decimal(double value, double power_of_ten) {
     const double scaled = value * power_of_ten;
-    return std::abs(scaled) < kStepLimit && Lattice::nearest_integer(scaled) / power_of_ten == value;
+    const double steps = Lattice::nearest_integer(scaled);
+    // Whole numbers are common enough to spare them the division.
+    return std::abs(scaled) < kStepLimit && (power_of_ten == 1 ? steps : steps / power_of_ten) == value;
 }
 
 constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();

@@ -9,10 +9,10 @@
 namespace tinwright {
 
 /// A lattice point: `x` and `y` hold non-negative integers below 2^45, so sums and differences of
-/// keys are exact in double precision.
+/// keys are exact in double precision. Zero when made with braces.
 struct Key2 {
-    double x = 0;
-    double y = 0;
+    double x;
+    double y;
     friend bool operator==(const Key2&, const Key2&) = default;
 };
 
@@ -65,7 +65,7 @@ class Lattice {
     friend bool operator==(const Lattice&, const Lattice&) = default;
 
   private:
-    Key2 origin_;
+    Key2 origin_{};
     double steps_per_unit_ = 1;  // 10^decimals or 2^-exponent, exact either way
     int decimals_ = 0;
     int exponent_ = 0;

@@ -13,8 +13,8 @@ namespace tinwright {
 
 /// Closed axis-parallel box of keys.
 struct KeyBox {
-    Key2 low;
-    Key2 high;
+    Key2 low{};
+    Key2 high{};
 
     /// The box of some keys, one at least.
     static KeyBox of(std::span<const Key2> keys) {

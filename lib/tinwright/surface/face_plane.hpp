@@ -12,7 +12,7 @@ namespace tinwright {
 
 /// A face's corner, its position in whole numbers of magnitude up to 2^52.
 struct SurfaceCorner {
-    Key2 key;
+    Key2 key{};
     double z = 0;
 };
 
@@ -56,7 +56,7 @@ class FacePlane {
     static constexpr double kNeedle = 0x1p-20;
 
     std::array<SurfaceCorner, 3> corner_;
-    Key2 gradient_;
+    Key2 gradient_{};
     double lowest_ = 0;
     double highest_ = 0;
     bool is_needle_ = false;

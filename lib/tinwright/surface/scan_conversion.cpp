@@ -28,7 +28,7 @@ using Range = tbb::blocked_range<std::size_t>;
 
 /// A vertex on the scan lattice, and the first row strictly below it.
 struct ScanVertex {
-    Key2 key;
+    Key2 key{};
     double z = 0;
     std::int32_t row = 0;
 };

@@ -15,7 +15,7 @@ constexpr double kWorstUncertainty = 0.25;
 constexpr double kUncertain = 2;  // more than any estimate's distance from the nearest centre
 
 Key2 largest_key(const Tin& tin) {
-    Key2 largest;
+    Key2 largest{};
     for (const Key2& key : tin.keys) {
         largest.x = std::max(largest.x, key.x);
         largest.y = std::max(largest.y, key.y);

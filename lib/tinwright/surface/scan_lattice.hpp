@@ -17,8 +17,8 @@ namespace tinwright {
 
 /// An edge that is not horizontal, ready to be cut by rows.
 struct CutEdge {
-    Key2 lower;
-    Key2 upper;
+    Key2 lower{};
+    Key2 upper{};
     double column = 0;            ///< of the lower end, in cells from the centre of column 0
     double columns_per_unit = 0;  ///< change of `column` along y
 };
