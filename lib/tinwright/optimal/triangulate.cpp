@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <limits>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -57,33 +58,36 @@ struct HullAndDetail {
 // Counts ghost faces, as many as the hull has vertices, and finds the two closest vertices, which are the
 // ends of an edge.
 HullAndDetail examine(const Tin& tin) {
-    constexpr std::size_t kGrain = 1U << 14U;
+    constexpr std::uint32_t kGrain = 1U << 14U;
     const TriangleMesh& mesh = tin.mesh;
-    return tbb::parallel_reduce(
-        tbb::blocked_range<std::uint32_t>(0, static_cast<std::uint32_t>(mesh.slot_count()), kGrain),
-        HullAndDetail{},
-        [&](const tbb::blocked_range<std::uint32_t>& range, HullAndDetail seen) {
-            for (std::uint32_t f = range.begin(); f != range.end(); ++f) {
-                if (mesh.is_ghost({f})) {
-                    ++seen.hull_vertices;
-                    continue;
-                }
-                if (tin.lattice.is_exact()) {
-                    continue;
-                }
-                const Key2 a = tin.key(mesh.vertex({f}, 0));
-                const Key2 b = tin.key(mesh.vertex({f}, 1));
-                const Key2 c = tin.key(mesh.vertex({f}, 2));
-                const double least = std::min(std::min(squared_distance(a, b), squared_distance(b, c)),
-                                              squared_distance(c, a));
-                if (least < seen.closest) {
-                    seen.closest = least;
-                    seen.at = {f};
+    const bool must_measure = !tin.lattice.is_exact();
+    const std::span<const Key2> keys = tin.keys;
+    const auto examine_range = [&mesh, keys, must_measure](const tbb::blocked_range<std::uint32_t>& range,
+                                                           const HullAndDetail& before) {
+        std::size_t ghosts = before.hull_vertices;
+        double closest = before.closest;
+        FaceId at = before.at;
+        for (std::uint32_t f = range.begin(); f != range.end(); ++f) {
+            const auto& [a, b, c] = mesh.face({f}).vertex;
+            if (c == kGhostVertex) {
+                ++ghosts;
+            } else if (must_measure) {
+                const Key2 p = keys[a.value];
+                const Key2 q = keys[b.value];
+                const Key2 r = keys[c.value];
+                const double least = std::min(std::min(squared_distance(p, q), squared_distance(q, r)),
+                                              squared_distance(r, p));
+                if (least < closest) {
+                    closest = least;
+                    at = {f};
                 }
             }
-            return seen;
-        },
-        HullAndDetail::merge);
+        }
+        return HullAndDetail{ghosts, closest, at};
+    };
+    return tbb::parallel_reduce(
+        tbb::blocked_range<std::uint32_t>(0, static_cast<std::uint32_t>(mesh.slot_count()), kGrain),
+        HullAndDetail{}, examine_range, HullAndDetail::merge);
 }
 
 // A lattice that had to move samples is good only if it moved each by a small part of the way to its
