@@ -13,7 +13,7 @@
 set -u
 file=$1 name=$2 tools=$3 scratch=$4
 export PATH="$tools:$PATH" LC_ALL=C
-rm -rf "$scratch" && mkdir -p "$scratch/work" && cp -r "$(dirname "$file")/data" "$scratch/work/in" || exit 2
+rm -rf "$scratch" && mkdir -p "$scratch/here" && cp -r "$(dirname "$file")/data" "$scratch/here/in" || exit 2
 
 select_lines() { # of this case, without their mark
     awk -v name="== $name" -v mark="$1" '
@@ -27,7 +27,7 @@ select_lines '!' >"$scratch/expected_stderr"
 status=$(select_lines '?')
 [ -s "$scratch/script" ] || { echo "no case \"$name\" in $file"; exit 2; }
 
-(cd "$scratch/work" && sh "$scratch/script" >"$scratch/stdout" 2>"$scratch/stderr")
+(cd "$scratch/here" && sh "$scratch/script" >"$scratch/stdout" 2>"$scratch/stderr")
 actual=$?
 failed=0
 [ "$actual" = "${status:-0}" ] || { echo "exit status $actual, expected ${status:-0}"; failed=1; }
