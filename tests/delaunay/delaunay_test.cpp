@@ -67,7 +67,7 @@ std::vector<std::uint32_t> words_of(const TriangleMesh& mesh) {
             words.push_back(face.twin[i].value);
         }
         words.push_back(face.marks);
-        words.push_back(face.spare);
+        words.push_back(face.scratch);
     }
     return words;
 }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "tinwright/mesh/border.hpp"
+
 namespace tinwright {
 
 namespace {
@@ -97,11 +99,6 @@ Histogram make_histogram(const std::vector<double>& values, std::vector<double> 
     }
     histogram.bounds = std::move(bounds);
     return histogram;
-}
-
-bool is_on_border(const TriangleMesh& mesh, FaceId face) {
-    return mesh.is_border(half_edge(face, 0)) || mesh.is_border(half_edge(face, 1)) ||
-           mesh.is_border(half_edge(face, 2));
 }
 
 std::vector<FaceValue> find_worst(const Tin& tin, const std::vector<FaceId>& faces,

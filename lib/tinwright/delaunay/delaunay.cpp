@@ -89,7 +89,7 @@ class Builder {
     void make_face(Index face, Index a, Index b, Index c) {
         set_face(face, a, b, c);
         face_[face].marks = 0;
-        face_[face].spare = 0;
+        face_[face].scratch = 0;
     }
     void set_face(Index face, Index a, Index b, Index c) { face_[face].vertex = {{{a}, {b}, {c}}}; }
     void set_twin(Index h, Index other) { face_[h >> 2U].twin[h & 3U].value = other; }

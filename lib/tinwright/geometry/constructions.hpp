@@ -23,6 +23,14 @@ inline double squared_distance(Key2 a, Key2 b) {
     return (b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y);
 }
 
+/// Inner product of a - apex and b - apex in squared keys; rounded once, so its sign is right.
+inline double inner_product(Key2 a, Key2 apex, Key2 b) {
+    const auto product = [](double left, double right) {
+        return static_cast<Int128>(static_cast<std::int64_t>(left)) * static_cast<std::int64_t>(right);
+    };
+    return static_cast<double>(product(a.x - apex.x, b.x - apex.x) + product(a.y - apex.y, b.y - apex.y));
+}
+
 }  // namespace tinwright
 
 #endif

@@ -123,6 +123,20 @@ int incircle_tie(Key2 a, Key2 b, Key2 c, Key2 d) {
     return last == b ? orient2d(c, a, d) : orient2d(a, b, d);
 }
 
+int compare_distances_int128(Key2 a, Key2 b, Key2 c, Key2 d) {
+    const auto square = [](Key2 p, Key2 q) {
+        const Int128 x = difference(p.x, q.x);
+        const Int128 y = difference(p.y, q.y);
+        return x * x + y * y;
+    };
+    return sign(square(a, b) - square(c, d));
+}
+
+int angle_sign_int128(Key2 a, Key2 apex, Key2 b) {
+    return sign(static_cast<Int128>(difference(a.x, apex.x)) * difference(b.x, apex.x) +
+                static_cast<Int128>(difference(a.y, apex.y)) * difference(b.y, apex.y));
+}
+
 }  // namespace internal
 
 int orient2d(Key2 a, Key2 b, Key2 c) {
@@ -142,6 +156,17 @@ int incircle(Key2 a, Key2 b, Key2 c, Key2 d) {
 int incircle_perturbed(Key2 a, Key2 b, Key2 c, Key2 d) {
     const int exact = incircle(a, b, c, d);
     return exact != 0 ? exact : internal::incircle_tie(a, b, c, d);
+}
+
+int compare_distances(Key2 a, Key2 b, Key2 c, Key2 d) {
+    const int fast =
+        internal::compare_squares(internal::localize(a, b).square, internal::localize(c, d).square);
+    return fast != internal::kUnsure ? fast : internal::compare_distances_int128(a, b, c, d);
+}
+
+int angle_sign(Key2 a, Key2 apex, Key2 b) {
+    const int fast = internal::inner_product_local(internal::localize(a, apex), internal::localize(b, apex));
+    return fast != internal::kUnsure ? fast : internal::angle_sign_int128(a, apex, b);
 }
 
 }  // namespace tinwright

@@ -22,6 +22,13 @@ int incircle(Key2 a, Key2 b, Key2 c, Key2 d);
 /// [edelsbrunner1990]
 int incircle_perturbed(Key2 a, Key2 b, Key2 c, Key2 d);
 
+/// Sign of the squared distance of a and b less that of c and d: +1 if a and b are farther apart.
+int compare_distances(Key2 a, Key2 b, Key2 c, Key2 d);
+
+/// Sign of the cosine of the angle at `apex` between a and b: +1 acute, 0 right, -1 obtuse. Swapping a and b
+/// keeps it.
+int angle_sign(Key2 a, Key2 apex, Key2 b);
+
 /// Lexicographic order of keys, x before y.
 inline bool precedes(Key2 a, Key2 b) { return a.x < b.x || (a.x == b.x && a.y < b.y); }
 

@@ -64,6 +64,28 @@ inline int incircle_local(const LocalKey& a, const LocalKey& b, const LocalKey& 
     return kUnsure;
 }
 
+/// Sign of the inner product of two keys seen from the same origin; answers as `orient2d_local` does.
+inline int inner_product_local(const LocalKey& a, const LocalKey& b) {
+    const double left = a.x * b.x;
+    const double right = a.y * b.y;
+    const double sum = left + right;
+    const double size = std::abs(left) + std::abs(right);
+    if (std::abs(sum) > 4 * kUnit * size || size < kExactIntegers) {
+        return sign_of(sum);
+    }
+    return kUnsure;
+}
+
+/// Sign of the difference of two squared lengths, as `localize` rounds them.
+inline int compare_squares(double a, double b) {
+    const double difference = a - b;
+    // A square errs by at most two units of itself.
+    if (std::abs(difference) > 8 * kUnit * (a + b) || a + b < kExactIntegers) {
+        return sign_of(difference);
+    }
+    return kUnsure;
+}
+
 /// Double precision: differences of keys are exact, so only products and sums round.
 inline int orient2d_double(Key2 a, Key2 b, Key2 c) { return orient2d_local(localize(a, c), localize(b, c)); }
 /// 128-bit integers; always answers.
@@ -77,6 +99,10 @@ inline int incircle_double(Key2 a, Key2 b, Key2 c, Key2 d) {
 int incircle_int128(Key2 a, Key2 b, Key2 c, Key2 d);
 /// 256-bit integers; always answers.
 int incircle_int256(Key2 a, Key2 b, Key2 c, Key2 d);
+
+/// 128-bit integers; always answer.
+int compare_distances_int128(Key2 a, Key2 b, Key2 c, Key2 d);
+int angle_sign_int128(Key2 a, Key2 apex, Key2 b);
 
 /// The side on which the symbolic perturbation puts d when `incircle` is zero: see `incircle_perturbed`.
 int incircle_tie(Key2 a, Key2 b, Key2 c, Key2 d);

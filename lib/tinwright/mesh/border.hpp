@@ -12,6 +12,12 @@ namespace tinwright {
 /// at their neighbours. O(slots), parallel inside the caller's task arena.
 std::vector<HalfEdgeId> find_border(const TriangleMesh& mesh);
 
+/// Whether an edge of the terrain face `f` is on the border.
+inline bool is_on_border(const TriangleMesh& mesh, FaceId f) {
+    return mesh.is_border(half_edge(f, 0)) || mesh.is_border(half_edge(f, 1)) ||
+           mesh.is_border(half_edge(f, 2));
+}
+
 }  // namespace tinwright
 
 #endif

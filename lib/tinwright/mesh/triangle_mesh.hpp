@@ -25,7 +25,7 @@ namespace tinwright {
 ///   M3  the three corners of a face are distinct and below vertex_count(), or the ghost vertex
 ///   M4  the ghost vertex stands at corner 2 only
 ///   M5  an edge is constrained in both of its faces or in neither
-///   M6  marks have no bit beyond the four known ones
+///   M6  marks have no bit beyond the four known ones, and scratch is zero
 ///   M7  no vertex has two edges to the same vertex in one turn around it
 ///   M8  every vertex that is a corner of a face has all its faces in as many closed turns as `check_mesh`
 ///       is told to allow (one for a triangulation of samples)
@@ -36,7 +36,7 @@ class TriangleMesh {
         std::array<VertexId, 3> vertex;
         std::uint32_t marks;
         std::array<HalfEdgeId, 3> twin;
-        std::uint32_t spare;
+        std::uint32_t scratch;  ///< zero but while `mesh_edit.hpp` is at work
     };
 
     using Faces = LargeVector<Face>;
@@ -75,6 +75,8 @@ class TriangleMesh {
 
     /// Number of terrain faces. O(slots).
     [[nodiscard]] std::size_t count_terrain() const;
+
+    friend class MeshEditor;  // behind mesh_edit.hpp
 
   private:
     static constexpr std::uint32_t kOutsideMark = 8;  // bits 0..2: half-edge i is constrained

@@ -9,6 +9,7 @@
 #include "tinwright/delaunay/sample_vertices.hpp"
 #include "tinwright/geometry/progress.hpp"
 #include "tinwright/mesh/tin.hpp"
+#include "tinwright/optimal/edge_insertion.hpp"
 
 /// The front door: samples and options in, a TIN and a report out.
 namespace tinwright {
@@ -17,7 +18,9 @@ struct TriangulateOptions {
     DuplicateOptions duplicates;
     DomainRule domain;
     std::optional<double> max_edge;  ///< faces with a longer edge (CRS units) are voids
-    int threads = 1;                 ///< 0: all processors; the result does not depend on it
+    /// Makes the TIN optimal after the domain is decided; empty: it stays Delaunay.
+    std::optional<OptimizeOptions> optimize;
+    int threads = 1;  ///< 0: all processors; the result does not depend on it
     Progress progress;
 };
 
@@ -28,6 +31,7 @@ struct TriangulateReport {
     std::size_t faces = 0;          ///< terrain faces
     std::size_t hull_vertices = 0;  ///< vertices on the convex hull, collinear ones included
     DomainReport domain;
+    std::optional<OptimizeReport> optimize;
     double triangulate_seconds = 0;  ///< lattice, sort and Delaunay
     double constrain_seconds = 0;    ///< domain
 };
@@ -37,7 +41,8 @@ struct Triangulated {
     TriangulateReport report;
 };
 
-/// Builds the Delaunay TIN of the samples within the domain asked for.
+/// Builds the TIN of the samples within the domain asked for: the Delaunay one, or the one that is optimal
+/// under a criterion.
 ///
 /// `samples`: n >= 3, CRS units, any order. Same set of samples and options, same TIN.
 /// Throws InputError: fewer than three distinct locations, all of them collinear, and what

@@ -1,0 +1,124 @@
+#include "tinwright/mesh/mesh_edit.hpp"
+
+#include <cassert>
+
+namespace tinwright {
+
+/// The one who may write into face records.
+class MeshEditor {
+  public:
+    explicit MeshEditor(TriangleMesh& mesh) : mesh_(mesh) {}
+
+    void flip(HalfEdgeId h);
+    void refill(std::span<const FaceId> slots, std::span<const CavityFace> faces);
+
+  private:
+    using Face = TriangleMesh::Face;
+
+    /// A half-edge outside the place under repair, and whether its edge is constrained.
+    struct Outer {
+        HalfEdgeId twin;
+        bool is_constrained;
+    };
+
+    [[nodiscard]] Face& record(FaceId f) { return mesh_.faces_[f.value]; }
+    [[nodiscard]] Outer outer(HalfEdgeId h) const { return {mesh_.twin(h), mesh_.is_constrained(h)}; }
+    void link(HalfEdgeId a, HalfEdgeId b) {
+        record(face_of(a)).twin[corner_of(a)] = b;
+        record(face_of(b)).twin[corner_of(b)] = a;
+    }
+    void attach(HalfEdgeId h, Outer outer) {
+        link(h, outer.twin);
+        record(face_of(h)).marks |= static_cast<std::uint32_t>(outer.is_constrained) << corner_of(h);
+    }
+    static HalfEdgeId resolve(CavityFace::Across across, std::span<const FaceId> slots) {
+        return half_edge(slots[across.face()], across.edge());
+    }
+
+    TriangleMesh& mesh_;
+};
+
+void MeshEditor::flip(HalfEdgeId h) {
+    const HalfEdgeId t = mesh_.twin(h);
+    assert(!mesh_.is_constrained(h) && mesh_.is_terrain(face_of(h)) && mesh_.is_terrain(face_of(t)));
+    // The quadrilateral is a d b c, counter-clockwise.
+    const VertexId a = mesh_.origin(h);
+    const VertexId b = mesh_.origin(t);
+    const VertexId c = mesh_.origin(previous(h));
+    const VertexId d = mesh_.origin(previous(t));
+    const Outer bc = outer(next(h));
+    const Outer ca = outer(previous(h));
+    const Outer ad = outer(next(t));
+    const Outer db = outer(previous(t));
+
+    const auto set_corners = [this](HalfEdgeId first, VertexId u, VertexId v, VertexId w) {
+        Face& face = record(face_of(first));
+        face.vertex[corner_of(first)] = u;
+        face.vertex[corner_of(next(first))] = v;
+        face.vertex[corner_of(previous(first))] = w;
+        face.marks = 0;
+    };
+    set_corners(h, d, c, a);
+    set_corners(t, c, d, b);
+    attach(next(h), ca);
+    attach(previous(h), ad);
+    attach(next(t), db);
+    attach(previous(t), bc);
+}
+
+void MeshEditor::refill(std::span<const FaceId> slots, std::span<const CavityFace> faces) {
+    assert(slots.size() == faces.size());
+    struct RimEdge {
+        HalfEdgeId old;
+        HalfEdgeId now;
+        Outer outer;
+    };
+    thread_local std::vector<RimEdge> rim;  // kept for its memory; empty between calls
+    rim.clear();
+    for (const FaceId slot : slots) {
+        record(slot).scratch = 1;
+    }
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+        for (unsigned edge = 0; edge < 3; ++edge) {
+            const CavityFace::Across across = faces[i].across[edge];
+            if (across.is_rim()) {
+                rim.push_back({across.old(), half_edge(slots[i], edge), outer(across.old())});
+            }
+        }
+    }
+    // Behind a crack lies the cavity itself: the half-edge that takes the place of the one once there.
+    for (RimEdge& edge : rim) {
+        if (record(face_of(edge.outer.twin)).scratch != 0) {
+            for (const RimEdge& other : rim) {
+                if (other.old == mesh_.twin(edge.old)) {
+                    edge.outer.twin = other.now;
+                    break;
+                }
+            }
+        }
+    }
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+        Face& face = record(slots[i]);
+        face.vertex = faces[i].vertex;
+        face.marks = 0;
+        face.scratch = 0;
+        for (unsigned edge = 0; edge < 3; ++edge) {
+            const CavityFace::Across across = faces[i].across[edge];
+            if (!across.is_rim()) {
+                face.twin[edge] = resolve(across, slots);
+            }
+        }
+    }
+    for (const RimEdge& edge : rim) {
+        attach(edge.now, edge.outer);
+    }
+    rim.clear();
+}
+
+void flip_edge(TriangleMesh& mesh, HalfEdgeId h) { MeshEditor(mesh).flip(h); }
+
+void refill_cavity(TriangleMesh& mesh, std::span<const FaceId> slots, std::span<const CavityFace> faces) {
+    MeshEditor(mesh).refill(slots, faces);
+}
+
+}  // namespace tinwright

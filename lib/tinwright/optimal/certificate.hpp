@@ -1,0 +1,48 @@
+#ifndef TINWRIGHT_OPTIMAL_CERTIFICATE_HPP
+#define TINWRIGHT_OPTIMAL_CERTIFICATE_HPP
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "tinwright/criteria/criterion.hpp"
+#include "tinwright/geometry/progress.hpp"
+#include "tinwright/mesh/tin.hpp"
+
+/// Proving again, slowly and by other means than the engine's, that a TIN is optimal.
+namespace tinwright {
+
+struct CertificateOptions {
+    Criterion criterion = Criterion::Slope;
+    std::optional<std::size_t> faces = 100;  ///< how many of the worst to examine; empty: all
+    Progress progress;                       ///< throws Cancelled when it says stop
+};
+
+/// An edge whose insertion would improve a face.
+struct Improvement {
+    FaceId face{};
+    VertexId anchor{};
+    VertexId apex{};      ///< the other end of the edge
+    double measure = 0;   ///< of the face, in the criterion's unit
+    double improved = 0;  ///< the worst of the faces that would replace it
+};
+
+struct Certificate {
+    std::size_t faces = 0;  ///< examined
+    std::size_t edges = 0;  ///< edges tried
+    WorstMeasures worst;
+    std::vector<Improvement> improvements;  ///< worst face first, at most one a face; none: optimal
+};
+
+/// Tries, for each of the worst faces, every edge that leaves an anchor of it through the opposite edge and
+/// crosses neither constrained edges nor faces that are worse; both sides of the edge are filled by dynamic
+/// programming [tan1993, Sec. 2.2]. A face that no such edge improves is in every optimal triangulation, ties
+/// apart, by the Cake-Cutting Lemma [tan1993, Sec. 3.3].
+///
+/// An improvement counts only if it exceeds the rounding of measures.
+/// Cost: cubic in the number of faces that an edge crosses, times the number of vertices in sight.
+Certificate certify(const Tin& tin, const CertificateOptions& options);
+
+}  // namespace tinwright
+
+#endif
