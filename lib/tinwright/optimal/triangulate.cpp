@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <limits>
 #include <span>
 #include <string>
@@ -26,6 +27,19 @@ double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+void check_optimize_options(const OptimizeOptions& options) {
+    const Scope& scope = options.scope;
+    if (scope.kind == Scope::Kind::Top && !(scope.value > 0 && scope.value <= 100)) {
+        throw UsageError("the percentage of the scope must be above 0 and at most 100");
+    }
+    if (scope.kind == Scope::Kind::Above && !std::isfinite(scope.value)) {
+        throw UsageError("the measure that the scope ends at must be a number");
+    }
+    if (options.budget_seconds && !(*options.budget_seconds >= 0)) {
+        throw UsageError("the budget must be zero seconds or more");
+    }
+}
+
 void check_options(const TriangulateOptions& options) {
     if (options.threads < 0) {
         throw UsageError("the number of threads must not be negative");
@@ -35,6 +49,9 @@ void check_options(const TriangulateOptions& options) {
     }
     if (options.domain.kind == DomainRule::Kind::Concave && !(options.domain.length > 0)) {
         throw UsageError("the length of a concave domain must be above zero");
+    }
+    if (options.optimize) {
+        check_optimize_options(*options.optimize);
     }
     if (options.max_edge && !(*options.max_edge > 0)) {
         throw UsageError("the longest edge allowed must be above zero");
@@ -142,17 +159,23 @@ Triangulated triangulate_here(std::span<const Point3> samples, const Triangulate
 
     const auto domain_start = Clock::now();
     report.domain.trimmed_faces = apply_domain(tin, options.domain);
+    constrain_border(tin);
+    report.constrain_seconds = seconds_since(domain_start);
+    if (options.optimize) {
+        report.optimize = optimize(tin, *options.optimize);
+    }
+    const auto voids_start = Clock::now();
     if (options.max_edge) {
         report.domain.void_faces = drop_long_faces(tin, *options.max_edge);
+        constrain_border(tin);
     }
-    constrain_border(tin);
     report.faces =
         tin.mesh.slot_count() - report.hull_vertices - report.domain.trimmed_faces - report.domain.void_faces;
     if (report.faces == 0) {
         throw InputError(
             "no face is left: all have an edge longer than --max-edge allows; give a longer one");
     }
-    report.constrain_seconds = seconds_since(domain_start);
+    report.constrain_seconds += seconds_since(voids_start);
     report_progress(options.progress, 1);
     return result;
 }
