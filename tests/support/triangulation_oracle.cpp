@@ -1,0 +1,398 @@
+#include "support/triangulation_oracle.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+namespace tinwright_tests::oracle {
+
+using tinwright::Criterion;
+using tinwright::Key2;
+
+namespace {
+
+__extension__ using Wide = __int128;
+
+Wide difference(double to, double from) {
+    return static_cast<std::int64_t>(to) - static_cast<std::int64_t>(from);
+}
+
+Wide cross(Key2 origin, Key2 a, Key2 b) {
+    return difference(a.x, origin.x) * difference(b.y, origin.y) -
+           difference(a.y, origin.y) * difference(b.x, origin.x);
+}
+
+Wide dot(Key2 origin, Key2 a, Key2 b) {
+    return difference(a.x, origin.x) * difference(b.x, origin.x) +
+           difference(a.y, origin.y) * difference(b.y, origin.y);
+}
+
+long double number(Wide value) { return static_cast<long double>(value); }
+
+long double largest_angle(const std::array<Site, 3>& p) {
+    long double largest = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Key2 apex = p[i].key;
+        const Key2 b = p[(i + 1) % 3].key;
+        const Key2 c = p[(i + 2) % 3].key;
+        const long double area = std::fabs(number(cross(apex, b, c)));
+        largest = std::max(largest, std::atan2(area, number(dot(apex, b, c))));
+    }
+    return largest * (180 / std::numbers::pi_v<long double>);
+}
+
+long double least_height(const std::array<Site, 3>& p) {
+    const long double area = std::fabs(number(cross(p[0].key, p[1].key, p[2].key)));
+    long double least = INFINITY;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Key2 a = p[i].key;
+        const Key2 b = p[(i + 1) % 3].key;
+        least = std::min(least, area / std::sqrt(number(dot(a, b, b))));
+    }
+    return least;
+}
+
+long double slope(const std::array<Site, 3>& p) {
+    const long double area = number(cross(p[0].key, p[1].key, p[2].key));
+    const auto along = [&p](std::size_t i, double Key2::*axis) {
+        return number(difference(p[i].key.*axis, p[0].key.*axis));
+    };
+    const auto rise = [&p](std::size_t i) {
+        return static_cast<long double>(p[i].z) - static_cast<long double>(p[0].z);
+    };
+    const long double x = rise(1) * along(2, &Key2::y) - rise(2) * along(1, &Key2::y);
+    const long double y = rise(2) * along(1, &Key2::x) - rise(1) * along(2, &Key2::x);
+    return std::hypot(x, y) / std::fabs(area);
+}
+
+/// The centre is as far beyond the side opposite an obtuse angle as that side's half times its cotangent.
+long double eccentricity(const std::array<Site, 3>& p) {
+    const long double area = std::fabs(number(cross(p[0].key, p[1].key, p[2].key)));
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Key2 b = p[(i + 1) % 3].key;
+        const Key2 c = p[(i + 2) % 3].key;
+        const Wide inner = dot(p[i].key, b, c);
+        if (inner < 0) {
+            return std::sqrt(number(dot(b, c, c))) * -number(inner) / (2 * area);
+        }
+    }
+    return 0;
+}
+
+bool is_before(Key2 a, Key2 b) { return a.x < b.x || (a.x == b.x && a.y < b.y); }
+
+/// Sites in lexicographic order, and which of their triples may be faces.
+class Table {
+  public:
+    explicit Table(const Sites& sites) : order_(sites.keys.size()) {
+        std::iota(order_.begin(), order_.end(), 0U);
+        std::sort(order_.begin(), order_.end(),
+                  [&](std::uint32_t a, std::uint32_t b) { return is_before(sites.keys[a], sites.keys[b]); });
+        std::vector<std::size_t> rank(order_.size());
+        for (std::size_t i = 0; i < order_.size(); ++i) {
+            rank[order_[i]] = i;
+            points_.push_back({sites.keys[order_[i]], sites.z[order_[i]]});
+        }
+        for (const Edge& edge : sites.constraints) {
+            constraints_.push_back({rank[edge[0]], rank[edge[1]]});
+        }
+        tabulate();
+    }
+
+    [[nodiscard]] std::size_t size() const { return points_.size(); }
+    [[nodiscard]] Site point(std::size_t rank) const { return points_[rank]; }
+    [[nodiscard]] std::uint32_t site(std::size_t rank) const { return order_[rank]; }
+    [[nodiscard]] bool do_edges_cross(std::size_t a, std::size_t b, std::size_t c, std::size_t d) const {
+        return do_cross(points_[a].key, points_[b].key, points_[c].key, points_[d].key);
+    }
+    /// Side of c of the line a b, by rank.
+    [[nodiscard]] int side(std::size_t a, std::size_t b, std::size_t c) const {
+        return side_[(a * size() + b) * size() + c];
+    }
+    /// Whether the triangle of these three, a < b < c, has no other point in it or on its edges and crosses
+    /// no constraint.
+    [[nodiscard]] bool is_face(std::size_t a, std::size_t b, std::size_t c) const {
+        return is_face_[(a * size() + b) * size() + c];
+    }
+
+  private:
+    void tabulate() {
+        const std::size_t n = size();
+        side_.assign(n * n * n, 0);
+        is_face_.assign(n * n * n, false);
+        for (std::size_t a = 0; a < n; ++a) {
+            for (std::size_t b = 0; b < n; ++b) {
+                for (std::size_t c = 0; c < n; ++c) {
+                    side_[(a * n + b) * n + c] = turn(points_[a].key, points_[b].key, points_[c].key);
+                }
+            }
+        }
+        std::vector<bool> is_allowed(n * n, true);
+        for (std::size_t a = 0; a < n; ++a) {
+            for (std::size_t b = 0; b < n; ++b) {
+                for (const auto& [from, to] : constraints_) {
+                    is_allowed[a * n + b] = is_allowed[a * n + b] && !do_edges_cross(a, b, from, to);
+                }
+            }
+        }
+        for (std::size_t a = 0; a < n; ++a) {
+            for (std::size_t b = a + 1; b < n; ++b) {
+                for (std::size_t c = b + 1; c < n; ++c) {
+                    is_face_[(a * n + b) * n + c] = is_allowed[a * n + b] && is_allowed[b * n + c] &&
+                                                    is_allowed[a * n + c] && is_empty(a, b, c);
+                }
+            }
+        }
+    }
+
+    [[nodiscard]] bool is_empty(std::size_t a, std::size_t b, std::size_t c) const {
+        const int sense = side(a, b, c);
+        if (sense == 0) {
+            return false;
+        }
+        for (std::size_t p = 0; p < size(); ++p) {
+            if (p != a && p != b && p != c && side(a, b, p) * sense >= 0 && side(b, c, p) * sense >= 0 &&
+                side(c, a, p) * sense >= 0) {
+                return false;
+            }
+        }
+        return true;
+    }
+
+    std::vector<std::uint32_t> order_;
+    std::vector<Site> points_;
+    std::vector<std::array<std::size_t, 2>> constraints_;
+    std::vector<int> side_;
+    std::vector<bool> is_face_;
+};
+
+/// Tabulates the best completions above monotone paths, which are sets of ranks as bits.
+class Sweep {
+  public:
+    using Path = std::uint32_t;
+    using Vector = std::vector<long double>;
+
+    Sweep(const Table& table, Criterion criterion)
+        : table_(table),
+          badness_(table.size() * table.size() * table.size()),
+          best_(std::size_t{1} << table.size()),
+          is_known_(std::size_t{1} << table.size()) {
+        const std::size_t n = table.size();
+        for (std::size_t a = 0; a < n; ++a) {
+            for (std::size_t b = a + 1; b < n; ++b) {
+                for (std::size_t c = b + 1; c < n; ++c) {
+                    if (table.is_face(a, b, c)) {
+                        badness_[(a * n + b) * n + c] =
+                            badness(criterion, table.point(a), table.point(b), table.point(c));
+                    }
+                }
+            }
+        }
+    }
+
+    /// The whole of it, from the lower hull.
+    const Vector& best() {
+        Path lower = 0;
+        upper_ = 0;
+        for (std::size_t p = 0; p < table_.size(); ++p) {
+            lower |= is_on_hull(p, 1) ? bit(p) : 0;
+            upper_ |= is_on_hull(p, -1) ? bit(p) : 0;
+        }
+        return *complete(lower);
+    }
+
+  private:
+    static Path bit(std::size_t p) { return Path{1} << p; }
+
+    [[nodiscard]] bool is_on_hull(std::size_t p, int inner_side) const {
+        for (std::size_t a = 0; a < p; ++a) {
+            for (std::size_t c = p + 1; c < table_.size(); ++c) {
+                if (table_.side(a, c, p) == inner_side) {
+                    return false;
+                }
+            }
+        }
+        return true;
+    }
+
+    /// Empty if no triangulation contains the path.
+    const std::optional<Vector>& complete(Path path) {
+        if (is_known_[path]) {
+            return best_[path];
+        }
+        is_known_[path] = true;
+        if (path == upper_) {
+            best_[path] = Vector{};
+            return best_[path];
+        }
+        std::vector<std::size_t> on_path;
+        for (std::size_t p = 0; p < table_.size(); ++p) {
+            if ((path & bit(p)) != 0) {
+                on_path.push_back(p);
+            }
+        }
+        for (std::size_t i = 1; i < on_path.size(); ++i) {
+            const std::size_t a = on_path[i - 1];
+            const std::size_t c = on_path[i];
+            for (std::size_t p = a + 1; p < c; ++p) {
+                if (table_.side(a, c, p) > 0 && table_.is_face(a, p, c)) {
+                    advance(path, path | bit(p), a, p, c);
+                }
+            }
+            if (i + 1 < on_path.size()) {
+                const std::size_t after = on_path[i + 1];
+                if (table_.side(a, c, after) > 0 && table_.is_face(a, c, after)) {
+                    advance(path, path & ~bit(c), a, c, after);
+                }
+            }
+        }
+        return best_[path];
+    }
+
+    /// Takes the completion by the triangle a b c and then the best above `next`, if it is better.
+    void advance(Path path, Path next, std::size_t a, std::size_t b, std::size_t c) {
+        const std::optional<Vector>& rest = complete(next);
+        if (!rest) {
+            return;
+        }
+        Vector vector = *rest;
+        const long double value = badness_[(a * table_.size() + b) * table_.size() + c];
+        vector.insert(std::lower_bound(vector.begin(), vector.end(), value, std::greater<>()), value);
+        if (!best_[path] || vector < *best_[path]) {
+            best_[path] = std::move(vector);
+        }
+    }
+
+    const Table& table_;
+    std::vector<long double> badness_;
+    std::vector<std::optional<Vector>> best_;
+    std::vector<bool> is_known_;
+    Path upper_ = 0;
+};
+
+/// All triangulations, one by one.
+class Enumeration {
+  public:
+    Enumeration(const Table& table, const std::function<void(const std::vector<Triple>&)>& visit)
+        : table_(table), visit_(visit) {
+        const std::size_t n = table.size();
+        for (std::size_t a = 0; a < n; ++a) {
+            for (std::size_t b = 0; b < n; ++b) {
+                if (a != b && is_hull_edge(a, b)) {
+                    open_[{a, b}] = true;
+                    edges_.push_back({a, b});
+                }
+            }
+        }
+    }
+
+    void run() {
+        const auto edge = std::find_if(open_.begin(), open_.end(), [](const auto& e) { return e.second; });
+        if (edge == open_.end()) {
+            visit_(faces_);
+            return;
+        }
+        const auto [a, b] = edge->first;
+        for (std::size_t p = 0; p < table_.size(); ++p) {
+            if (p == a || p == b || table_.side(a, b, p) <= 0) {
+                continue;
+            }
+            std::array<std::size_t, 3> sorted{a, b, p};
+            std::sort(sorted.begin(), sorted.end());
+            if (table_.is_face(sorted[0], sorted[1], sorted[2]) && is_free(b, p) && is_free(p, a)) {
+                place(a, b, p);
+            }
+        }
+    }
+
+  private:
+    /// Whether all points are left of a b or on it, and none between a and b.
+    [[nodiscard]] bool is_hull_edge(std::size_t a, std::size_t b) const {
+        for (std::size_t p = 0; p < table_.size(); ++p) {
+            if (table_.side(a, b, p) < 0 ||
+                is_inside_segment(table_.point(p).key, table_.point(a).key, table_.point(b).key)) {
+                return false;
+            }
+        }
+        return true;
+    }
+
+    [[nodiscard]] bool is_free(std::size_t a, std::size_t b) const {
+        return std::none_of(edges_.begin(), edges_.end(),
+                            [&](const auto& e) { return table_.do_edges_cross(a, b, e[0], e[1]); });
+    }
+
+    void place(std::size_t a, std::size_t b, std::size_t p) {
+        const auto open = open_;
+        const std::size_t edge_count = edges_.size();
+        open_[{a, b}] = false;
+        for (const auto& [from, to] : {std::array{b, p}, std::array{p, a}}) {
+            const auto waiting = open_.find({from, to});
+            if (waiting != open_.end() && waiting->second) {
+                waiting->second = false;
+            } else {
+                open_[{to, from}] = true;
+                edges_.push_back({from, to});
+            }
+        }
+        faces_.push_back({table_.site(a), table_.site(b), table_.site(p)});
+        run();
+        faces_.pop_back();
+        edges_.resize(edge_count);
+        open_ = open;
+    }
+
+    const Table& table_;
+    const std::function<void(const std::vector<Triple>&)>& visit_;
+    std::map<std::array<std::size_t, 2>, bool> open_;  ///< directed edges and whether a face is missing left
+    std::vector<std::array<std::size_t, 2>> edges_;
+    std::vector<Triple> faces_;
+};
+
+}  // namespace
+
+int turn(Key2 a, Key2 b, Key2 c) {
+    const Wide area = cross(a, b, c);
+    return area > 0 ? 1 : area < 0 ? -1 : 0;
+}
+
+bool do_cross(Key2 a, Key2 b, Key2 c, Key2 d) {
+    return turn(a, b, c) * turn(a, b, d) < 0 && turn(c, d, a) * turn(c, d, b) < 0;
+}
+
+bool is_inside_segment(Key2 p, Key2 a, Key2 b) {
+    return p != a && p != b && turn(a, b, p) == 0 && dot(p, a, b) < 0;
+}
+
+long double badness(Criterion criterion, Site a, Site b, Site c) {
+    std::array<Site, 3> p{a, b, c};
+    std::sort(p.begin(), p.end(), [](const Site& s, const Site& t) { return is_before(s.key, t.key); });
+    switch (criterion) {
+        case Criterion::Angle:
+            return largest_angle(p);
+        case Criterion::Height:
+            return -least_height(p);
+        case Criterion::Slope:
+            return slope(p);
+        case Criterion::Eccentricity:
+            break;
+    }
+    return eccentricity(p);
+}
+
+std::vector<long double> best_badnesses(const Sites& sites, Criterion criterion) {
+    const Table table(sites);
+    return Sweep(table, criterion).best();
+}
+
+void for_each_triangulation(const Sites& sites,
+                            const std::function<void(const std::vector<Triple>&)>& visit) {
+    const Table table(sites);
+    Enumeration(table, visit).run();
+}
+
+}  // namespace tinwright_tests::oracle
