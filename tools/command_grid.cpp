@@ -15,14 +15,11 @@ namespace {
 io::TinMetadata raster_metadata(const Surface& surface, const CommandGrid& command) {
     const std::string method = "--method " + command.raster.method;
     io::TinMetadata metadata{{"TINWRIGHT_VERSION", TINWRIGHT_VERSION}, {"TINWRIGHT_COMMAND", "grid"}};
+    const io::TinMetadata criterion = criterion_metadata(surface.criterion);
+    metadata.insert(metadata.end(), criterion.begin(), criterion.end());
     if (surface.report) {
-        metadata.emplace_back("TINWRIGHT_CRITERION", command.triangulation.criterion);
         metadata.emplace_back("TINWRIGHT_OPTIONS", command.triangulation.canonical() + " " + method);
         return metadata;
-    }
-    const std::string criterion = metadata_value(surface.metadata, "TINWRIGHT_CRITERION");
-    if (!criterion.empty()) {
-        metadata.emplace_back("TINWRIGHT_CRITERION", criterion);
     }
     std::string options = metadata_value(surface.metadata, "TINWRIGHT_OPTIONS");
     if (command.triangulation.max_edge) {
@@ -125,8 +122,6 @@ Outcome CommandGrid::run() {
 
     JobReport report;
     report.command = "grid";
-    report.criterion =
-        is_tin ? metadata_value(surface.metadata, "TINWRIGHT_CRITERION") : triangulation.criterion;
     report.domain = is_tin ? "as in the TIN" : triangulation.domain_name();
     report.duplicate_policy = triangulation.policy_name();
     report.raster = RasterReport{grid, written, !like && !raster.request.resolution && !raster.request.size};

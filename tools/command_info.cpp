@@ -40,8 +40,6 @@ Outcome CommandInfo::run() {
     report.command = "info";
     report.domain = is_tin ? "as in the TIN" : triangulation.domain_name();
     report.duplicate_policy = triangulation.policy_name();
-    report.criterion =
-        is_tin ? metadata_value(surface.metadata, "TINWRIGHT_CRITERION") : triangulation.criterion;
     if (talk.json) {
         JsonValue json = make_json(report, surface);
         add_content_json(json, surface);

@@ -61,7 +61,6 @@ io::WriteTinOptions CommandTin::write_options() const {
     options.overwrite = output.overwrite;
     options.metadata = {{"TINWRIGHT_VERSION", TINWRIGHT_VERSION},
                         {"TINWRIGHT_COMMAND", "tin"},
-                        {"TINWRIGHT_CRITERION", triangulation.criterion},
                         {"TINWRIGHT_OPTIONS", triangulation.canonical()}};
     return options;
 }
@@ -80,6 +79,8 @@ Outcome CommandTin::run() {
                                  .keep_ids = keep_ids,
                                  .progress_end = 0.7};
     Surface surface = triangulate_sources(request, console);
+    const io::TinMetadata criterion = criterion_metadata(surface.criterion);
+    options.metadata.insert(options.metadata.end(), criterion.begin(), criterion.end());
     options.origins = std::move(surface.origins);
     options.progress = console.progress().stage(0.7, 1);
     const auto start = std::chrono::steady_clock::now();
@@ -91,7 +92,6 @@ Outcome CommandTin::run() {
 
     JobReport report;
     report.command = "tin";
-    report.criterion = triangulation.criterion;
     report.domain = triangulation.domain_name();
     report.duplicate_policy = triangulation.policy_name();
     report.outputs = {output.path};

@@ -14,15 +14,15 @@ namespace tinwright::tools {
 
 namespace {
 
-// A signal can be told from anywhere, and so can what it sets.
-std::atomic<bool> interrupted{false};  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
+// A signal can be told from anywhere, and so can what it sets: the first signal, or 0.
+std::atomic<int> interrupted_by{0};  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
 
 void wait_for_signals(const sigset_t& signals) {
     int signal = 0;
     if (sigwait(&signals, &signal) != 0) {
         return;
     }
-    interrupted = true;
+    interrupted_by = signal;
     if (sigwait(&signals, &signal) == 0) {
         io::discard_unfinished_outputs();
         _exit(1);
@@ -45,6 +45,11 @@ void watch_for_interrupts() {
     std::thread([signals] { wait_for_signals(signals); }).detach();
 }
 
-bool is_interrupted() { return interrupted; }
+bool is_interrupted() { return interrupted_by != 0; }
+
+bool take_interrupt() {
+    int expected = SIGINT;
+    return interrupted_by.compare_exchange_strong(expected, 0) || expected != 0;
+}
 
 }  // namespace tinwright::tools

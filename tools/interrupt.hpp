@@ -15,6 +15,11 @@ void watch_for_interrupts();
 /// Whether the user asked to stop.
 bool is_interrupted();
 
+/// Whether a step that can be left with a usable result has to be left. Ctrl-C (SIGINT) asks for no more
+/// than that: it is taken here, and the steps that follow go on. Whoever ends the program by another signal
+/// wants no result: that one stays for them.
+bool take_interrupt();
+
 }  // namespace tinwright::tools
 
 #endif

@@ -63,6 +63,9 @@ JsonValue timings_json(const JobReport& report, const Surface& surface) {
     if (surface.report) {
         timings.set("triangulate", surface.report->triangulate_seconds);
         timings.set("constrain", surface.report->constrain_seconds);
+        if (surface.report->optimize) {
+            timings.set("optimize", surface.report->optimize->seconds);
+        }
     }
     if (report.raster) {
         timings.set("interpolate", report.raster->written.interpolate_seconds);
@@ -165,6 +168,9 @@ std::string times_line(const JobReport& report, const Surface& surface) {
     if (surface.report) {
         times += ", triangulate " + fixed(surface.report->triangulate_seconds, 2) + ", domain " +
                  fixed(surface.report->constrain_seconds, 2);
+        if (surface.report->optimize) {
+            times += ", optimise " + fixed(surface.report->optimize->seconds, 2);
+        }
     }
     if (report.raster) {
         times += ", interpolate " + fixed(report.raster->written.interpolate_seconds, 2) + ", write " +
@@ -219,11 +225,12 @@ JsonValue make_json(const JobReport& report, const Surface& surface) {
         json.set("steiner_vertices", count_steiner_vertices(surface.tin));
         json.set("conflicts", 0);  // points alone have none; lines would
     }
-    if (!report.criterion.empty()) {
-        json.set("criterion", JsonValue::object().set("name", report.criterion));
+    if (!surface.criterion.name.empty()) {
+        json.set("criterion", criterion_json(surface.criterion));
     }
     if (surface.report) {
-        json.set("conforming", true);  // nothing but Delaunay edges: no constraint can break them
+        // Without lines, nothing but another criterion breaks Delaunay edges.
+        json.set("conforming", !surface.report->optimize.has_value());
     }
     json.set("domain", report.domain);
     if (report.raster) {
@@ -249,6 +256,11 @@ std::string report_text(const JobReport& report, const Surface& surface, const R
         text += detail.conflicts ? conflict_lines(surface.report->duplicates) : "";
     }
     add("TIN", tin_line(report, surface));
+    std::string label = "criterion";
+    for (const std::string& line : criterion_lines(surface.criterion)) {
+        add(label, line);
+        label.clear();
+    }
     if (report.raster) {
         add("raster", raster_line(*report.raster));
     }

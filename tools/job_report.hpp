@@ -23,7 +23,6 @@ struct RasterReport {
 /// What a finished command has to tell, once for people and once as JSON (docs/json.md).
 struct JobReport {
     std::string command;
-    std::string criterion;  ///< empty: unknown (a foreign TIN)
     std::string domain;
     std::string duplicate_policy;
     std::optional<RasterReport> raster;

@@ -12,7 +12,14 @@ namespace tinwright::tools {
 
 namespace {
 
-constexpr auto kCriteria = std::to_array<std::pair<std::string_view, int>>({{"delaunay", 0}});
+constexpr const char* kDelaunay = "delaunay";
+
+constexpr auto kCriterionChoices = std::to_array<std::pair<std::string_view, std::optional<Criterion>>>(
+    {{kDelaunay, std::nullopt},
+     {"slope", Criterion::Slope},
+     {"height", Criterion::Height},
+     {"angle", Criterion::Angle},
+     {"eccentricity", Criterion::Eccentricity}});
 
 constexpr auto kPolicies =
     std::to_array<std::pair<std::string_view, DuplicatePolicy>>({{"error", DuplicatePolicy::Error},
@@ -38,10 +45,57 @@ DomainRule parse_domain(const std::string& text) {
     throw UsageError("--domain takes convex, trimmed or concave:LENGTH, not " + io::quoted(text));
 }
 
+double share_value(std::string text) {
+    const std::string given = text;
+    if (text.ends_with('%')) {
+        text.pop_back();
+    }
+    const std::optional<double> percent = find_number(text);
+    if (!percent || !(*percent > 0 && *percent <= 100)) {
+        throw UsageError("--scope top:P% needs a number above 0 and up to 100, not " + io::quoted(given));
+    }
+    return *percent;
+}
+
+double stop_value(Criterion criterion, const std::string& text) {
+    constexpr const char* kOption = "--scope above:VALUE";
+    if (criterion == Criterion::Height) {
+        return positive_value(kOption, text);
+    }
+    const double value = number_value(kOption, text);
+    if (criterion == Criterion::Angle && !(value >= 60 && value <= 180)) {
+        throw UsageError(std::string(kOption) + " needs degrees from 60 to 180, not " + io::quoted(text));
+    }
+    if (value < 0) {
+        throw UsageError(std::string(kOption) + " needs a number from 0 up, not " + io::quoted(text));
+    }
+    return value;
+}
+
+Scope parse_scope(Criterion criterion, const std::string& text) {
+    constexpr std::string_view kTop = "top:";
+    constexpr std::string_view kAbove = "above:";
+    if (text == "max") {
+        return {Scope::Kind::Max, 0};
+    }
+    if (text == "vector") {
+        return {Scope::Kind::Vector, 0};
+    }
+    if (text.starts_with(kTop)) {
+        return {Scope::Kind::Top, share_value(text.substr(kTop.size()))};
+    }
+    if (text.starts_with(kAbove)) {
+        return {Scope::Kind::Above, stop_value(criterion, text.substr(kAbove.size()))};
+    }
+    throw UsageError("--scope takes max, vector, top:P% or above:VALUE, not " + io::quoted(text));
+}
+
 }  // namespace
 
 void TriangulationOptions::add_to(CLI::App& parser, const std::string& default_domain) {
-    add_value(parser, "--criterion", criterion, "NAME", "what the TIN is best at: delaunay");
+    add_value(parser, "--criterion", criterion_text, "NAME", "delaunay|slope|height|angle|eccentricity");
+    add_value(parser, "--scope", scope_text, "SCOPE", "max|vector|top:P%|above:VALUE (default top:0.5%)");
+    add_value(parser, "--budget", budget_text, "SECONDS", "stop optimising after this time");
     add_value(parser, "--domain", domain_text, "RULE",
               "convex|trimmed|concave:LENGTH (default " + default_domain + ")");
     add_value(parser, "--max-edge", max_edge_text, "LENGTH", "faces with a longer edge are voids");
@@ -54,7 +108,22 @@ void TriangulationOptions::add_threads_to(CLI::App& parser) {
 }
 
 void TriangulationOptions::finish(DomainRule::Kind default_domain, DuplicatePolicy default_policy) {
-    choice_value("--criterion", criterion, kCriteria);
+    optimize = {};
+    const std::optional<Criterion> criterion =
+        criterion_text.empty() ? std::nullopt
+                               : choice_value("--criterion", criterion_text, kCriterionChoices);
+    if (criterion) {
+        optimize.emplace().criterion = *criterion;
+        if (!scope_text.empty()) {
+            optimize->scope = parse_scope(*criterion, scope_text);
+        }
+        if (!budget_text.empty()) {
+            optimize->budget_seconds = positive_value("--budget", budget_text);
+        }
+    } else if (!scope_text.empty() || !budget_text.empty()) {
+        throw UsageError((scope_text.empty() ? std::string("--budget") : std::string("--scope")) +
+                         " is for optimising: give --criterion slope, height, angle or eccentricity too");
+    }
     domain = domain_text.empty() ? DomainRule{default_domain, 0} : parse_domain(domain_text);
     if (!max_edge_text.empty()) {
         max_edge = positive_value("--max-edge", max_edge_text);
@@ -72,6 +141,9 @@ void TriangulationOptions::finish(DomainRule::Kind default_domain, DuplicatePoli
 }
 
 std::string TriangulationOptions::option_for_samples_only() const {
+    if (!criterion_text.empty()) {
+        return "--criterion";
+    }
     if (!domain_text.empty()) {
         return "--domain";
     }
@@ -81,14 +153,41 @@ std::string TriangulationOptions::option_for_samples_only() const {
     return tolerance_text.empty() ? std::string() : "--duplicate-tolerance";
 }
 
-TriangulateOptions TriangulationOptions::library_options(const Progress& progress) const {
+TriangulateOptions TriangulationOptions::library_options(const Progress& progress,
+                                                         const Progress& optimize_progress) const {
     TriangulateOptions options;
     options.duplicates = duplicates;
     options.domain = domain;
     options.max_edge = max_edge;
+    options.optimize = optimize;
+    if (options.optimize) {
+        options.optimize->progress = optimize_progress;
+    }
     options.threads = threads;
     options.progress = progress;
     return options;
+}
+
+std::string TriangulationOptions::criterion_name() const {
+    return optimize ? std::string(criterion_traits(optimize->criterion).name) : kDelaunay;
+}
+
+std::string TriangulationOptions::scope_name() const {
+    if (!optimize) {
+        return {};
+    }
+    const Scope& scope = optimize->scope;
+    switch (scope.kind) {
+        case Scope::Kind::Max:
+            return "max";
+        case Scope::Kind::Vector:
+            return "vector";
+        case Scope::Kind::Top:
+            return "top:" + decimal_text(scope.value) + "%";
+        case Scope::Kind::Above:
+            return "above:" + decimal_text(scope.value);
+    }
+    return {};
 }
 
 std::string TriangulationOptions::domain_name() const {
@@ -106,7 +205,14 @@ std::string TriangulationOptions::domain_name() const {
 std::string TriangulationOptions::policy_name() const { return choice_name(duplicates.policy, kPolicies); }
 
 std::string TriangulationOptions::canonical() const {
-    std::string text = "--criterion " + criterion + " --domain " + domain_name();
+    std::string text = "--criterion " + criterion_name();
+    if (optimize) {
+        text += " --scope " + scope_name();
+        if (optimize->budget_seconds) {
+            text += " --budget " + decimal_text(*optimize->budget_seconds);
+        }
+    }
+    text += " --domain " + domain_name();
     if (max_edge) {
         text += " --max-edge " + decimal_text(*max_edge);
     }

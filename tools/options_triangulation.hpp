@@ -1,6 +1,7 @@
 #ifndef TINWRIGHT_TOOLS_OPTIONS_TRIANGULATION_HPP
 #define TINWRIGHT_TOOLS_OPTIONS_TRIANGULATION_HPP
 
+#include <optional>
 #include <string>
 
 #include "tinwright/optimal/triangulate.hpp"
@@ -11,7 +12,9 @@ namespace tinwright::tools {
 
 /// How samples become a TIN.
 struct TriangulationOptions {
-    std::string criterion = "delaunay";
+    std::string criterion_text;  ///< empty: delaunay
+    std::string scope_text;
+    std::string budget_text;
     std::string domain_text;  ///< empty: the command's default
     std::string max_edge_text;
     std::string duplicates_text;
@@ -19,6 +22,7 @@ struct TriangulationOptions {
     std::string threads_text;
 
     // After `finish`:
+    std::optional<OptimizeOptions> optimize;  ///< empty: Delaunay; without progress
     DuplicateOptions duplicates;
     DomainRule domain;
     std::optional<double> max_edge;
@@ -33,7 +37,13 @@ struct TriangulationOptions {
     /// The first option given that makes no sense for a TIN whose faces already exist, or empty.
     [[nodiscard]] std::string option_for_samples_only() const;
 
-    [[nodiscard]] TriangulateOptions library_options(const Progress& progress) const;
+    /// `optimize_progress`: its answer ends the optimising, not the job.
+    [[nodiscard]] TriangulateOptions library_options(const Progress& progress,
+                                                     const Progress& optimize_progress) const;
+    /// "delaunay", "slope", ...
+    [[nodiscard]] std::string criterion_name() const;
+    /// "max", "vector", "top:P%" or "above:VALUE"; empty for Delaunay.
+    [[nodiscard]] std::string scope_name() const;
     /// "convex", "trimmed" or "concave:LENGTH".
     [[nodiscard]] std::string domain_name() const;
     [[nodiscard]] std::string policy_name() const;

@@ -57,4 +57,8 @@ Progress ProgressLine::stage(double begin, double end) {
     };
 }
 
+Progress ProgressLine::stage_to_leave(double begin, double end) {
+    return [go_on = stage(begin, end)](double fraction) { return go_on(fraction) || !take_interrupt(); };
+}
+
 }  // namespace tinwright::tools

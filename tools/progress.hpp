@@ -27,6 +27,8 @@ class ProgressLine {
     /// The progress of one stage, which is the share from `begin` to `end` of the whole. It asks to stop
     /// when the user did. The line must outlive it.
     [[nodiscard]] Progress stage(double begin, double end);
+    /// That of a stage that may be left early with a usable result: the first Ctrl-C ends this stage alone.
+    [[nodiscard]] Progress stage_to_leave(double begin, double end);
 
   private:
     std::ostream* out_;

@@ -91,21 +91,25 @@ bool is_existing_tin(const SurfaceRequest& request) {
 }
 
 Surface triangulate_sources(const SurfaceRequest& request, Console& console) {
-    const double middle = request.progress_end / 2;
+    // Optimising, where there is any, takes longer than all the rest.
+    const bool is_optimizing = request.triangulation.optimize.has_value();
+    const double triangulate_at = request.progress_end * (is_optimizing ? 0.2 : 0.5);
+    const double optimize_at = request.progress_end * (is_optimizing ? 0.3 : 1.0);
     io::ReadOptions options;
     options.skip_bad = request.sources.skip_bad;
     options.crs = request.crs.crs();
     options.source_crs = request.crs.source_crs();
     options.threads = request.triangulation.threads;
-    options.progress = console.progress().stage(0, middle);
+    options.progress = console.progress().stage(0, triangulate_at);
     io::Samples samples = io::read_samples(request.sources.sources, options);
     for (const std::string& warning : samples.warnings) {
         console.warn(warning);
     }
 
     Triangulated made = triangulate_located(
-        samples,
-        request.triangulation.library_options(console.progress().stage(middle, request.progress_end)));
+        samples, request.triangulation.library_options(
+                     console.progress().stage(triangulate_at, optimize_at),
+                     console.progress().stage_to_leave(optimize_at, request.progress_end)));
     Surface surface;
     if (request.keep_origins) {
         surface.origins = make_vertex_origins(made.tin, samples.slices, request.keep_ids);
@@ -114,6 +118,11 @@ Surface triangulate_sources(const SurfaceRequest& request, Console& console) {
     surface.report = std::move(made.report);
     surface.crs = samples.crs;
     surface.z_unit = samples.z_unit;
+    surface.criterion = make_criterion_report(request.triangulation, surface.report->optimize, surface.crs);
+    for (const std::string& warning :
+         criterion_warnings(request.triangulation, surface.report->optimize, surface.crs, surface.z_unit)) {
+        console.warn(warning);
+    }
     surface.slices = std::move(samples.slices);
     for (io::SampleSlice& slice : surface.slices) {
         slice.ids = {};  // the origins have what is wanted of them
@@ -137,6 +146,7 @@ Surface read_existing_tin(const SurfaceRequest& request, Console& console) {
     surface.crs = file.crs.is_known() ? file.crs : assigned.is_known() ? assigned : wanted;
     surface.z_unit = surface.crs.z_unit();
     surface.metadata = std::move(file.metadata);
+    surface.criterion = read_criterion_report(surface.metadata);
     surface.tin_layer = std::move(file.layer);
     if (request.triangulation.max_edge) {
         surface.void_faces = drop_long_faces(surface.tin, *request.triangulation.max_edge);

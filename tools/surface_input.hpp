@@ -12,6 +12,7 @@
 #include "tinwright/optimal/triangulate.hpp"
 
 #include "console.hpp"
+#include "criterion_report.hpp"
 #include "options_crs.hpp"
 #include "options_sources.hpp"
 #include "options_triangulation.hpp"
@@ -25,10 +26,11 @@ struct Surface {
     std::string z_unit;
     std::vector<io::SampleSlice> slices;      ///< what was read, without ids; empty for a TIN file
     std::optional<TriangulateReport> report;  ///< only when triangulated
-    io::VertexOrigins origins;                ///< as a TIN file keeps them
-    io::TinMetadata metadata;                 ///< of the TIN file
-    std::string tin_layer;                    ///< of the TIN file
-    std::size_t void_faces = 0;               ///< dropped by --max-edge from a TIN file
+    CriterionReport criterion;
+    io::VertexOrigins origins;   ///< as a TIN file keeps them
+    io::TinMetadata metadata;    ///< of the TIN file
+    std::string tin_layer;       ///< of the TIN file
+    std::size_t void_faces = 0;  ///< dropped by --max-edge from a TIN file
     double read_seconds = 0;
 };
 

@@ -1,0 +1,248 @@
+#include "criterion_report.hpp"
+
+#include <array>
+#include <cstdio>
+#include <utility>
+
+#include "tinwright/geometry/decimal.hpp"
+
+#include "option_values.hpp"
+#include "surface_input.hpp"
+
+namespace tinwright::tools {
+
+namespace {
+
+constexpr auto kProofs = std::to_array<std::pair<std::string_view, Proof>>(
+    {{"theorem", Proof::Theorem}, {"tested", Proof::Tested}, {"false", Proof::None}});
+
+constexpr auto kStops = std::to_array<std::pair<std::string_view, StoppedBy>>(
+    {{"finished", StoppedBy::Finished}, {"budget", StoppedBy::Budget}, {"interrupt", StoppedBy::Interrupt}});
+
+constexpr const char* kUnknownUnit = "CRS unit";
+
+std::string unit_of(Criterion criterion, const io::Crs& crs) {
+    switch (criterion_traits(criterion).unit) {
+        case MeasureUnit::Degree:
+            return "degree";
+        case MeasureUnit::Ratio:
+            return "ratio";
+        case MeasureUnit::Length:
+            break;
+    }
+    return crs.unit().empty() ? kUnknownUnit : crs.unit();
+}
+
+/// The keys of the four worst measures, in the metadata and in JSON.
+struct WorstKey {
+    const char* metadata;
+    const char* json;
+    std::optional<double> CriterionReport::*value;
+};
+
+constexpr std::array kWorstKeys{
+    WorstKey{"TINWRIGHT_WORST", "worst", &CriterionReport::worst},
+    WorstKey{"TINWRIGHT_WORST_INTERIOR", "worst_interior", &CriterionReport::worst_interior},
+    WorstKey{"TINWRIGHT_WORST_DELAUNAY", "worst_delaunay", &CriterionReport::worst_delaunay},
+    WorstKey{"TINWRIGHT_WORST_INTERIOR_DELAUNAY", "worst_interior_delaunay",
+             &CriterionReport::worst_interior_delaunay}};
+
+struct TextKey {
+    const char* metadata;
+    std::string CriterionReport::*value;
+};
+
+constexpr std::array kTextKeys{TextKey{"TINWRIGHT_CRITERION", &CriterionReport::name},
+                               TextKey{"TINWRIGHT_SCOPE", &CriterionReport::scope},
+                               TextKey{"TINWRIGHT_UNIT", &CriterionReport::unit},
+                               TextKey{"TINWRIGHT_PROVEN", &CriterionReport::proven},
+                               TextKey{"TINWRIGHT_STOPPED_BY", &CriterionReport::stopped_by}};
+
+std::string short_number(double value) {
+    std::array<char, 48> text{};
+    std::snprintf(text.data(), text.size(), "%.6g", value);
+    return text.data();
+}
+
+/// "12.3 -> 4.91", or one of the two alone.
+std::string change_text(std::optional<double> before, std::optional<double> after) {
+    if (before && after) {
+        return short_number(*before) + " -> " + short_number(*after);
+    }
+    return before || after ? short_number(before ? *before : *after) : std::string();
+}
+
+/// "worst slope 12.3 -> 4.91 (interior 8.2 -> 3.3)".
+std::string worst_line(const CriterionReport& report) {
+    const std::optional<Criterion> criterion = find_criterion(report.name);
+    std::string unit;
+    if (report.unit == "degree") {
+        unit = " deg";
+    } else if (report.unit != "ratio" && report.unit != kUnknownUnit && !report.unit.empty()) {
+        unit = " " + report.unit;
+    }
+    const std::string name =
+        criterion ? std::string(criterion_traits(*criterion).measure) : std::string(report.name);
+    std::string line = "worst " + name + " " + change_text(report.worst_delaunay, report.worst) + unit;
+    const std::string interior = change_text(report.worst_interior_delaunay, report.worst_interior);
+    return interior.empty() ? line : line + " (interior " + interior + unit + ")";
+}
+
+std::string proof_line(const CriterionReport& report) {
+    const std::string what = report.scope == "vector" ? "every face" : "the worst face";
+    if (report.proven == "theorem") {
+        return what + " proven optimal (theorem)";
+    }
+    if (report.proven == "tested") {
+        return what + " tested to be optimal; equal measures, which the theorem excludes, were met";
+    }
+    if (report.stopped_by == "budget" || report.stopped_by == "interrupt") {
+        return "not proven optimal: stopped by " +
+               std::string(report.stopped_by == "budget" ? "the budget" : "an interrupt");
+    }
+    return "not proven optimal: every face within the scope could be improved";
+}
+
+std::string counted(std::size_t count, const char* singular, const char* plural) {
+    return std::to_string(count) + " " + (count == 1 ? singular : plural);
+}
+
+std::string counts_line(const OptimizeReport& counts) {
+    return counted(counts.insertions, "edge", "edges") + " inserted, " +
+           counted(counts.tries, "face", "faces") + " tried, " + std::to_string(counts.frozen) +
+           " as good as can be, " + (counts.ties == 0 ? "no ties" : counted(counts.ties, "tie", "ties"));
+}
+
+JsonValue proven_json(const std::string& proven) {
+    return proven == "false" ? JsonValue(false) : JsonValue(proven);
+}
+
+/// Why slopes are not rise over run in one unit; empty if they are.
+std::string slope_unit_doubt(const io::Crs& crs, const std::string& z_unit) {
+    if (crs.is_geographic()) {
+        return "the CRS is in degrees";
+    }
+    if (crs.unit().empty()) {
+        return "the units are unknown";
+    }
+    if (z_unit.empty()) {
+        return "the unit of z is unknown, that of the CRS is " + crs.unit();
+    }
+    return z_unit == crs.unit() ? std::string() : "z is in " + z_unit + ", the CRS in " + crs.unit();
+}
+
+}  // namespace
+
+CriterionReport make_criterion_report(const TriangulationOptions& options,
+                                      const std::optional<OptimizeReport>& result, const io::Crs& crs) {
+    CriterionReport report;
+    report.name = options.criterion_name();
+    report.scope = options.scope_name();
+    if (options.optimize && result) {
+        report.unit = unit_of(options.optimize->criterion, crs);
+        report.worst = result->after.all;
+        report.worst_interior = result->after.interior;
+        report.worst_delaunay = result->before.all;
+        report.worst_interior_delaunay = result->before.interior;
+        report.proven = choice_name(result->proof, kProofs);
+        report.stopped_by = choice_name(result->stopped_by, kStops);
+        report.counts = result;
+    }
+    return report;
+}
+
+CriterionReport read_criterion_report(const io::TinMetadata& metadata) {
+    CriterionReport report;
+    for (const TextKey& key : kTextKeys) {
+        report.*key.value = metadata_value(metadata, key.metadata);
+    }
+    for (const WorstKey& key : kWorstKeys) {
+        report.*key.value = find_number(metadata_value(metadata, key.metadata));
+    }
+    return report;
+}
+
+io::TinMetadata criterion_metadata(const CriterionReport& report) {
+    io::TinMetadata metadata;
+    for (const TextKey& key : kTextKeys) {
+        if (!(report.*key.value).empty()) {
+            metadata.emplace_back(key.metadata, report.*key.value);
+        }
+    }
+    for (const WorstKey& key : kWorstKeys) {
+        if (const std::optional<double>& value = report.*key.value) {
+            metadata.emplace_back(key.metadata, decimal_text(*value));
+        }
+    }
+    return metadata;
+}
+
+JsonValue criterion_json(const CriterionReport& report) {
+    JsonValue json = JsonValue::object();
+    json.set("name", report.name);
+    if (!report.scope.empty()) {
+        json.set("scope", report.scope);
+    }
+    for (const WorstKey& key : kWorstKeys) {
+        if (const std::optional<double>& value = report.*key.value) {
+            json.set(key.json, *value);
+        }
+    }
+    if (!report.unit.empty()) {
+        json.set("unit", report.unit);
+    }
+    if (!report.proven.empty()) {
+        json.set("proven", proven_json(report.proven));
+    }
+    if (!report.stopped_by.empty()) {
+        json.set("stopped_by", report.stopped_by);
+    }
+    if (report.counts) {
+        json.set("ties", report.counts->ties)
+            .set("frozen", report.counts->frozen)
+            .set("insertions", report.counts->insertions)
+            .set("tries", report.counts->tries)
+            .set("candidates", report.counts->candidates);
+    }
+    return json;
+}
+
+std::vector<std::string> criterion_lines(const CriterionReport& report) {
+    if (!report.worst) {
+        return {};
+    }
+    std::vector<std::string> lines{report.name + ", scope " + report.scope +
+                                   (report.counts ? "" : " (as the file says)")};
+    lines.push_back(worst_line(report));
+    lines.push_back(proof_line(report));
+    if (report.counts) {
+        lines.push_back(counts_line(*report.counts));
+    }
+    return lines;
+}
+
+std::vector<std::string> criterion_warnings(const TriangulationOptions& options,
+                                            const std::optional<OptimizeReport>& result, const io::Crs& crs,
+                                            const std::string& z_unit) {
+    std::vector<std::string> warnings;
+    if (!options.optimize || !result) {
+        return warnings;
+    }
+    if (options.optimize->criterion == Criterion::Slope) {
+        const std::string doubt = slope_unit_doubt(crs, z_unit);
+        if (!doubt.empty()) {
+            warnings.push_back("slopes are z units per CRS unit: " + doubt);
+        }
+    }
+    const std::string not_proven =
+        "the TIN is valid but its worst " + options.criterion_name() + " is not proven optimal";
+    if (result->stopped_by == StoppedBy::Budget) {
+        warnings.push_back("the budget of " + decimal_text(options.optimize->budget_seconds.value_or(0)) +
+                           " s ran out: " + not_proven + "; give a longer --budget");
+    } else if (result->stopped_by == StoppedBy::Interrupt) {
+        warnings.push_back("interrupted while optimising: " + not_proven);
+    }
+    return warnings;
+}
+
+}  // namespace tinwright::tools

@@ -1,0 +1,55 @@
+#ifndef TINWRIGHT_TOOLS_CRITERION_REPORT_HPP
+#define TINWRIGHT_TOOLS_CRITERION_REPORT_HPP
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tinwright/io/crs.hpp"
+#include "tinwright/io/write_tin.hpp"
+#include "tinwright/optimal/edge_insertion.hpp"
+
+#include "json_value.hpp"
+#include "options_triangulation.hpp"
+
+namespace tinwright::tools {
+
+/// What a TIN was made best at, and how well that went: of one made just now, or of a file by what it says.
+struct CriterionReport {
+    std::string name;   ///< "delaunay", "slope", ...; empty: unknown (a foreign TIN)
+    std::string scope;  ///< empty for Delaunay
+    std::string unit;   ///< "degree", "ratio", "metre", ..., "CRS unit" for lengths in an unknown one
+    std::optional<double> worst;
+    std::optional<double> worst_interior;
+    std::optional<double> worst_delaunay;  ///< before optimising
+    std::optional<double> worst_interior_delaunay;
+    std::string proven;                    ///< "theorem", "tested" or "false"
+    std::string stopped_by;                ///< "finished", "budget" or "interrupt"
+    std::optional<OptimizeReport> counts;  ///< only for one made just now
+};
+
+/// The report on a TIN made with `options`. `result`: empty for a Delaunay TIN.
+CriterionReport make_criterion_report(const TriangulationOptions& options,
+                                      const std::optional<OptimizeReport>& result, const io::Crs& crs);
+
+/// What a file says. Keys that are missing or unreadable are left empty.
+CriterionReport read_criterion_report(const io::TinMetadata& metadata);
+
+/// TINWRIGHT_CRITERION and what belongs to it (docs/formats.md), without what is empty.
+io::TinMetadata criterion_metadata(const CriterionReport& report);
+
+/// The object `criterion` of the JSON report.
+JsonValue criterion_json(const CriterionReport& report);
+
+/// Lines for people, without indentation; none for a Delaunay TIN.
+std::vector<std::string> criterion_lines(const CriterionReport& report);
+
+/// What the user has to be warned of: a result that is not proven because the work was stopped, and slopes
+/// in mixed or unknown units.
+std::vector<std::string> criterion_warnings(const TriangulationOptions& options,
+                                            const std::optional<OptimizeReport>& result, const io::Crs& crs,
+                                            const std::string& z_unit);
+
+}  // namespace tinwright::tools
+
+#endif
