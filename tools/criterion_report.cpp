@@ -72,18 +72,23 @@ std::string change_text(std::optional<double> before, std::optional<double> afte
     return before || after ? short_number(before ? *before : *after) : std::string();
 }
 
-/// "worst slope 12.3 -> 4.91 (interior 8.2 -> 3.3)".
+/// "largest angle", "least height", "greatest slope".
+std::string worst_name(const std::string& criterion) {
+    const std::optional<Criterion> known = find_criterion(criterion);
+    const std::string measure(known ? criterion_traits(*known).measure : criterion);
+    return measure.find(' ') == std::string::npos ? "greatest " + measure : measure;
+}
+
+/// "greatest slope 12.3 -> 4.91 (interior 8.2 -> 3.3)".
 std::string worst_line(const CriterionReport& report) {
-    const std::optional<Criterion> criterion = find_criterion(report.name);
     std::string unit;
     if (report.unit == "degree") {
         unit = " deg";
     } else if (report.unit != "ratio" && report.unit != kUnknownUnit && !report.unit.empty()) {
         unit = " " + report.unit;
     }
-    const std::string name =
-        criterion ? std::string(criterion_traits(*criterion).measure) : std::string(report.name);
-    std::string line = "worst " + name + " " + change_text(report.worst_delaunay, report.worst) + unit;
+    std::string line =
+        worst_name(report.name) + " " + change_text(report.worst_delaunay, report.worst) + unit;
     const std::string interior = change_text(report.worst_interior_delaunay, report.worst_interior);
     return interior.empty() ? line : line + " (interior " + interior + unit + ")";
 }
@@ -100,7 +105,7 @@ std::string proof_line(const CriterionReport& report) {
         return "not proven optimal: stopped by " +
                std::string(report.stopped_by == "budget" ? "the budget" : "an interrupt");
     }
-    return "not proven optimal: every face within the scope could be improved";
+    return "not proven optimal: the scope ends before a face that cannot be improved";
 }
 
 std::string counted(std::size_t count, const char* singular, const char* plural) {
