@@ -22,14 +22,16 @@ struct CertificateOptions {
 struct Improvement {
     FaceId face{};
     VertexId anchor{};
-    VertexId apex{};      ///< the other end of the edge
-    double measure = 0;   ///< of the face, in the criterion's unit
-    double improved = 0;  ///< the worst of the faces that would replace it
+    VertexId apex{};     ///< the other end of the edge
+    double measure = 0;  ///< of the face, in the criterion's unit
+    double improved =
+        0;  ///< the worst of the faces that would replace it and all others that the edge crosses
 };
 
 struct Certificate {
-    std::size_t faces = 0;  ///< examined
-    std::size_t edges = 0;  ///< edges tried
+    std::size_t faces = 0;       ///< examined
+    std::size_t anchorless = 0;  ///< of these, faces without an anchor, for which there is nothing to try
+    std::size_t edges = 0;       ///< edges tried
     WorstMeasures worst;
     std::vector<Improvement> improvements;  ///< worst face first, at most one a face; none: optimal
 };
@@ -37,10 +39,16 @@ struct Certificate {
 /// Tries, for each of the worst faces, every edge that leaves an anchor of it through the opposite edge and
 /// crosses neither constrained edges nor faces that are worse; both sides of the edge are filled by dynamic
 /// programming [tan1993, Sec. 2.2]. A face that no such edge improves is in every optimal triangulation, ties
-/// apart, by the Cake-Cutting Lemma [tan1993, Sec. 3.3].
+/// apart, by the Cake-Cutting Lemma [tan1993, Sec. 3.3]. An edge that would run through a vertex is none: the
+/// one that ends there is tried. Of the edges that improve a face the first found is listed.
 ///
-/// An improvement counts only if it exceeds the rounding of measures.
-/// Cost: cubic in the number of faces that an edge crosses, times the number of vertices in sight.
+/// An improvement counts only if it exceeds the rounding of measures: every new face, taken at the upper end
+/// of its error, has to be better than the old one at the lower end of its own.
+///
+/// `tin`: at least one terrain face.
+/// Cost: a face costs the number of vertices in sight times at worst the cube of the number of faces that an
+/// edge crosses, but most long edges end at once: no face fits on them. 8 bytes a face of scratch, and 8
+/// times the square of the faces crossed.
 Certificate certify(const Tin& tin, const CertificateOptions& options);
 
 }  // namespace tinwright

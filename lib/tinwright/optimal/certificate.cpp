@@ -1,0 +1,279 @@
+#include "tinwright/optimal/certificate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <utility>
+
+#include "tinwright/criteria/visit_criterion.hpp"
+#include "tinwright/geometry/predicates.hpp"
+#include "tinwright/optimal/polygon_dp.hpp"
+
+namespace tinwright {
+
+namespace {
+
+/// A measure and a bound of its error, both in the criterion's own unit.
+struct Measured {
+    double value = 0;
+    double error = 0;
+};
+
+/// Measures made of one face's angles have a few units in the last place of error; this is some thousands.
+constexpr double kRelativeError = 1e-12;
+
+template <FaceCriterion C>
+Measured measure_with_error(const C& criterion, const Tin& /*tin*/, VertexId a, VertexId b, VertexId c) {
+    const double value = criterion.measure(a, b, c);
+    return {value, kRelativeError * std::abs(value)};
+}
+
+/// The gradient of a needle is a small difference of great products, which its slope does not show. Its error
+/// is relative to the products of its lengths and rises, whichever corner they are taken from.
+Measured measure_with_error(const SlopeCriterion& criterion, const Tin& tin, VertexId a, VertexId b,
+                            VertexId c) {
+    const Key2 origin = tin.key(a);
+    const internal::LocalKey u = internal::localize(tin.key(b), origin);
+    const internal::LocalKey v = internal::localize(tin.key(c), origin);
+    const internal::LocalKey w = internal::localize(tin.key(c), tin.key(b));
+    const double area = internal::doubled_area_of(origin, tin.key(b), tin.key(c), u, v);
+    const double length = std::sqrt(std::max({u.square, v.square, w.square}));
+    const auto [low, high] = std::minmax({tin.z[a.value], tin.z[b.value], tin.z[c.value]});
+    const double slope_error = 32 * std::numeric_limits<double>::epsilon() * length * (high - low) / area;
+    const double value = criterion.measure(a, b, c);
+    return {value, kRelativeError * value + slope_error * (2 * std::sqrt(value) + slope_error)};
+}
+
+/// Looks from the anchor of a face through the opposite edge, and tries an edge to every vertex in sight.
+/// Letters as in [tan1993, Fig. 3.1]: q anchor, s apex.
+template <FaceCriterion C>
+class Certifier {
+  public:
+    Certifier(const Tin& tin, const C& criterion, const Progress& progress)
+        : tin_(tin), criterion_(criterion), progress_(progress) {}
+
+    Certificate certify(std::optional<std::size_t> count);
+
+  private:
+    /// An edge to be looked through, between two lines of sight.
+    struct View {
+        HalfEdgeId edge;      ///< of the nearer face
+        VertexId right;       ///< the line of sight through it bounds the view, itself not included
+        VertexId left;        ///< the other bound
+        bool is_right_moved;  ///< whether `edge` has a new right end rather than a new left one
+        std::size_t rights;   ///< how long the chains were before the new end
+        std::size_t lefts;
+    };
+
+    void measure_faces();
+    [[nodiscard]] std::vector<FaceId> worst_faces(std::optional<std::size_t> count);
+    void examine(FaceId face);
+    bool look_from(FaceId face, unsigned corner);
+    [[nodiscard]] bool is_open(HalfEdgeId h) const;
+    void go_on(const View& view, VertexId q, VertexId s);
+    bool is_improved_by(FaceId face, VertexId q, VertexId s);
+    [[nodiscard]] std::optional<double> fill(std::span<const VertexId> ring);
+    [[nodiscard]] int side(VertexId from, VertexId to, VertexId v) const {
+        return orient2d(tin_.key(from), tin_.key(to), tin_.key(v));
+    }
+    void poll();
+
+    const Tin& tin_;
+    const C& criterion_;
+    const Progress& progress_;
+    Certificate certificate_;
+    std::vector<double> measure_;  ///< of each slot that is terrain
+    double limit_ = 0;             ///< faces worse than this are obstacles
+    double wanted_ = 0;            ///< what new faces have to stay below for certain
+    double done_ = 0;              ///< fraction
+    std::uint32_t steps_ = 0;
+    // The ends of the edges crossed, to the right and to the left of the view, nearest first.
+    std::vector<VertexId> rights_;
+    std::vector<VertexId> lefts_;
+    std::vector<View> views_;     // stack
+    std::vector<VertexId> ring_;  // scratch
+    std::vector<Key2> ring_keys_;
+};
+
+template <FaceCriterion C>
+Certificate Certifier<C>::certify(std::optional<std::size_t> count) {
+    measure_faces();
+    const std::vector<FaceId> faces = worst_faces(count);
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+        done_ = static_cast<double>(i) / static_cast<double>(faces.size());
+        poll();
+        examine(faces[i]);
+    }
+    certificate_.faces = faces.size();
+    report_progress(progress_, 1);
+    return std::move(certificate_);
+}
+
+template <FaceCriterion C>
+void Certifier<C>::measure_faces() {
+    measure_.resize(tin_.mesh.slot_count());
+    for (std::uint32_t f = 0; f < measure_.size(); ++f) {
+        if (tin_.mesh.is_terrain({f})) {
+            const auto& [a, b, c] = tin_.mesh.face({f}).vertex;
+            measure_[f] = criterion_.measure(a, b, c);
+        }
+    }
+}
+
+template <FaceCriterion C>
+std::vector<FaceId> Certifier<C>::worst_faces(std::optional<std::size_t> count) {
+    std::vector<FaceId> faces;
+    for (std::uint32_t f = 0; f < measure_.size(); ++f) {
+        if (tin_.mesh.is_terrain({f})) {
+            faces.push_back({f});
+        }
+    }
+    const auto is_worse = [this](FaceId a, FaceId b) {
+        const double x = measure_[a.value];
+        const double y = measure_[b.value];
+        return x > y || (x == y && a < b);
+    };
+    const std::size_t kept = std::min(count.value_or(faces.size()), faces.size());
+    std::partial_sort(faces.begin(), faces.begin() + static_cast<std::ptrdiff_t>(kept), faces.end(),
+                      is_worse);
+    faces.resize(kept);
+    return faces;
+}
+
+template <FaceCriterion C>
+void Certifier<C>::examine(FaceId face) {
+    const auto& [a, b, c] = tin_.mesh.face(face).vertex;
+    const unsigned anchors = criterion_.anchors(a, b, c);
+    certificate_.anchorless += anchors == 0 ? 1U : 0U;
+    const Measured measured = measure_with_error(criterion_, tin_, a, b, c);
+    limit_ = measured.value;
+    wanted_ = measured.value - measured.error;
+    for (unsigned corner = 0; corner < 3; ++corner) {
+        if ((anchors >> corner & 1U) != 0 && look_from(face, corner)) {
+            return;
+        }
+    }
+}
+
+/// Whether the view reaches the face behind an edge.
+template <FaceCriterion C>
+bool Certifier<C>::is_open(HalfEdgeId h) const {
+    const FaceId behind = face_of(tin_.mesh.twin(h));
+    return !tin_.mesh.is_constrained(h) && tin_.mesh.is_terrain(behind) && measure_[behind.value] <= limit_;
+}
+
+/// Whether an edge was found that improves the face. A view is a wedge of lines of sight from q, open at its
+/// sides, that all cross the same edges. The vertex behind its edge is in sight if it lies within; it divides
+/// the view in two, or else all goes on through one of the two edges that it ends.
+template <FaceCriterion C>
+bool Certifier<C>::look_from(FaceId face, unsigned corner) {
+    const HalfEdgeId opposite = half_edge(face, next_corner(corner));
+    const VertexId q = tin_.mesh.vertex(face, corner);
+    rights_.assign(1, tin_.mesh.origin(opposite));
+    lefts_.clear();
+    const VertexId left = tin_.mesh.destination(opposite);
+    views_.assign(1, {opposite, rights_.front(), left, false, 1, 0});
+    while (!views_.empty()) {
+        poll();
+        const View view = views_.back();
+        views_.pop_back();
+        rights_.resize(view.rights);
+        lefts_.resize(view.lefts);
+        if (view.is_right_moved) {
+            rights_.push_back(tin_.mesh.origin(view.edge));
+        } else {
+            lefts_.push_back(tin_.mesh.destination(view.edge));
+        }
+        if (!is_open(view.edge)) {
+            continue;
+        }
+        const VertexId s = tin_.mesh.origin(previous(tin_.mesh.twin(view.edge)));
+        if (side(q, view.right, s) > 0 && side(q, view.left, s) < 0 && is_improved_by(face, q, s)) {
+            return true;
+        }
+        go_on(view, q, s);
+    }
+    return false;
+}
+
+template <FaceCriterion C>
+void Certifier<C>::go_on(const View& view, VertexId q, VertexId s) {
+    const HalfEdgeId behind = tin_.mesh.twin(view.edge);
+    // Seen from behind, the edge runs from left to right, then on to s.
+    const HalfEdgeId to_the_right = next(behind);
+    const HalfEdgeId to_the_left = previous(behind);
+    const bool is_past_right = side(q, view.right, s) > 0;
+    const bool is_before_left = side(q, view.left, s) < 0;
+    if (is_before_left) {
+        views_.push_back(
+            {to_the_left, is_past_right ? s : view.right, view.left, true, rights_.size(), lefts_.size()});
+    }
+    if (is_past_right) {
+        views_.push_back(
+            {to_the_right, view.right, is_before_left ? s : view.left, false, rights_.size(), lefts_.size()});
+    }
+}
+
+template <FaceCriterion C>
+bool Certifier<C>::is_improved_by(FaceId face, VertexId q, VertexId s) {
+    ++certificate_.edges;
+    // Counter-clockwise, and so that the edge closes the ring.
+    ring_.assign(1, q);
+    ring_.insert(ring_.end(), rights_.begin(), rights_.end());
+    ring_.push_back(s);
+    const std::optional<double> right = fill(ring_);
+    if (!right) {
+        return false;
+    }
+    ring_.assign(1, s);
+    ring_.insert(ring_.end(), lefts_.rbegin(), lefts_.rend());
+    ring_.push_back(q);
+    const std::optional<double> left = fill(ring_);
+    if (!left) {
+        return false;
+    }
+    certificate_.improvements.push_back(
+        {face, q, s, criterion_.to_report(limit_), criterion_.to_report(std::max(*right, *left))});
+    return true;
+}
+
+/// The least maximum of faces that are all better than the one examined.
+template <FaceCriterion C>
+std::optional<double> Certifier<C>::fill(std::span<const VertexId> ring) {
+    ring_keys_.clear();
+    for (const VertexId v : ring) {
+        ring_keys_.push_back(tin_.key(v));
+    }
+    const auto measure = [&](std::uint32_t i, std::uint32_t k, std::uint32_t j) {
+        const Measured measured = measure_with_error(criterion_, tin_, ring[i], ring[k], ring[j]);
+        return measured.value + measured.error < wanted_ ? measured.value
+                                                         : std::numeric_limits<double>::infinity();
+    };
+    Progress progress;
+    if (progress_) {
+        progress = [this](double) { return progress_(done_); };
+    }
+    const auto filled = triangulate_polygon(ring_keys_, measure, PolygonCost::Maximum, progress);
+    return filled ? std::optional(filled->cost) : std::nullopt;
+}
+
+/// Often enough to be stopped, seldom enough to cost nothing.
+template <FaceCriterion C>
+void Certifier<C>::poll() {
+    if ((++steps_ & 0xFFFU) == 0) {
+        report_progress(progress_, done_);
+    }
+}
+
+}  // namespace
+
+Certificate certify(const Tin& tin, const CertificateOptions& options) {
+    Certificate certificate = visit_criterion(options.criterion, tin, [&](const auto& criterion) {
+        return Certifier(tin, criterion, options.progress).certify(options.faces);
+    });
+    certificate.worst = find_worst(tin, options.criterion);
+    return certificate;
+}
+
+}  // namespace tinwright

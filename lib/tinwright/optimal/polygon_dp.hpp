@@ -1,0 +1,54 @@
+#ifndef TINWRIGHT_OPTIMAL_POLYGON_DP_HPP
+#define TINWRIGHT_OPTIMAL_POLYGON_DP_HPP
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "tinwright/geometry/lattice.hpp"
+#include "tinwright/geometry/progress.hpp"
+
+/// The best triangulation of a polygon by dynamic programming [gilbert1979; klincsek1980; tan1993, Sec. 2.2].
+/// Slow and plain: for checkers, and for polygons that no faster method knows.
+namespace tinwright {
+
+/// What is made small over the faces of a polygon.
+enum class PolygonCost : std::uint8_t { Maximum, Sum };
+
+/// The measure of the face with its corners at these positions of the ring, ascending, which is
+/// counter-clockwise. Infinity or NaN forbids the face.
+///
+/// A function object, so that the algorithm is compiled once and stays out of the header: next to a measure
+/// and a predicate the indirect call is small, and most faces are ruled out before they are measured.
+using RingMeasure = std::function<double(std::uint32_t, std::uint32_t, std::uint32_t)>;
+
+struct PolygonTriangulation {
+    double cost = 0;  ///< the greatest measure of a face, or the sum of all
+    /// Positions in the ring, ascending; n - 2 of them.
+    std::vector<std::array<std::uint32_t, 3>> faces;
+};
+
+/// Triangulates a polygon so that the cost is least. Empty if there is no triangulation: fewer than three
+/// vertices, no area, a clockwise ring, or too many faces forbidden.
+///
+/// `ring`: the n vertices in counter-clockwise order, the polygon's interior being simply connected.
+/// Consecutive vertices may be collinear, and the ring may touch itself: a vertex may come several times, an
+/// edge once in each direction (a crack, [tan1993, Fig. 3.1]). All faces have positive area, decided exactly.
+/// Of equal costs the triangulation is taken whose middle corners come first, so the result is unique.
+///
+/// The minimum-weight triangulation is the one of least sum when a face measures half its perimeter: an inner
+/// edge is counted half by each of its two faces, and the ring's own edges half whatever the faces.
+///
+/// Time O(n^3), less where many faces are forbidden; memory 8 n^2 bytes, none if the edge from the last
+/// vertex to the first has no face that is allowed. `progress` may throw Cancelled.
+std::optional<PolygonTriangulation> triangulate_polygon(std::span<const Key2> ring,
+                                                        const RingMeasure& measure,
+                                                        PolygonCost cost = PolygonCost::Maximum,
+                                                        const Progress& progress = {});
+
+}  // namespace tinwright
+
+#endif
