@@ -106,6 +106,79 @@ TEST_SUITE("tools/setup") {
               "--duplicate-tolerance 0.01");
     }
 
+    TEST_CASE("a TIN is Delaunay unless a criterion is given, whose worst faces are then improved") {
+        CommandTin tin;
+        tin.setup({"a.csv", "-o", "b.gpkg"});
+        CHECK_FALSE(tin.triangulation.optimize.has_value());
+        CHECK(tin.triangulation.criterion_name() == "delaunay");
+        CHECK(tin.triangulation.canonical() == "--criterion delaunay --domain convex --duplicates error");
+        for (const Criterion criterion : kCriteria) {
+            const std::string name(criterion_traits(criterion).name);
+            CAPTURE(name);
+            CommandGrid grid;
+            grid.setup({"a.csv", "-o", "b.tif", "--criterion", name});
+            REQUIRE(grid.triangulation.optimize.has_value());
+            CHECK(grid.triangulation.optimize->criterion == criterion);
+            CHECK(grid.triangulation.optimize->scope.kind == Scope::Kind::Top);
+            CHECK(grid.triangulation.optimize->scope.value == 0.5);
+            CHECK_FALSE(grid.triangulation.optimize->budget_seconds.has_value());
+            CHECK(grid.triangulation.canonical() ==
+                  "--criterion " + name + " --scope top:0.5% --domain trimmed --duplicates error");
+        }
+    }
+
+    TEST_CASE("scopes and budgets are read and written back canonically") {
+        const auto scope = [](const std::string& criterion, const std::string& text) {
+            CommandInfo info;
+            info.setup({"a.csv", "--criterion", criterion, "--scope", text});
+            return info.triangulation.scope_name();
+        };
+        CHECK(scope("slope", "max") == "max");
+        CHECK(scope("slope", "vector") == "vector");
+        CHECK(scope("slope", "top:1.50%") == "top:1.5%");
+        CHECK(scope("slope", "top:100") == "top:100%");
+        CHECK(scope("slope", "above:0") == "above:0");
+        CHECK(scope("angle", "above:1.2e2") == "above:120");
+        CHECK(scope("height", "above:.25") == "above:0.25");
+        CHECK(scope("eccentricity", "above:1000") == "above:1000");
+        CommandTin tin;
+        tin.setup({"a.csv", "-o", "b.gpkg", "--budget", "0.50", "--criterion", "slope", "--scope", "max"});
+        CHECK(tin.triangulation.optimize->budget_seconds == 0.5);
+        CHECK(tin.triangulation.canonical() ==
+              "--criterion slope --scope max --budget 0.5 --domain convex --duplicates error");
+    }
+
+    TEST_CASE("scopes and budgets that make no sense are refused") {
+        const auto tin = [](const std::string& criterion, std::vector<std::string> more) {
+            more.insert(more.begin(), {"a.csv", "-o", "b", "--criterion", criterion});
+            return complaint<CommandTin>(more);
+        };
+        for (const std::string text : {"all", "top", "top 5%", "maximum", "Max", "above"}) {
+            CAPTURE(text);
+            CHECK(tin("slope", {"--scope", text}) ==
+                  "--scope takes max, vector, top:P% or above:VALUE, not \"" + text + "\"");
+        }
+        for (const std::string share : {"", "%", "0", "-1%", "100.1%", "nan", "inf", "5%%", "5 %"}) {
+            CAPTURE(share);
+            CHECK(tin("slope", {"--scope", "top:" + share}) ==
+                  "--scope top:P% needs a number above 0 and up to 100, not \"" + share + "\"");
+        }
+        CHECK(tin("slope", {"--scope", "above:-1"}) ==
+              "--scope above:VALUE needs a number from 0 up, not \"-1\"");
+        CHECK(tin("slope", {"--scope", "above:steep"}) ==
+              "--scope above:VALUE needs a number, not \"steep\"");
+        CHECK(tin("height", {"--scope", "above:0"}) ==
+              "--scope above:VALUE needs a number above zero, not \"0\"");
+        CHECK(tin("angle", {"--scope", "above:2.5"}) ==
+              "--scope above:VALUE needs degrees from 60 to 180, not \"2.5\"");
+        CHECK(tin("angle", {"--budget", "0"}) == "--budget needs a number above zero, not \"0\"");
+        CHECK(tin("angle", {"--budget", "5s"}) == "--budget needs a number above zero, not \"5s\"");
+        CHECK(tin("delaunay", {"--scope", "max"}) ==
+              "--scope is for optimising: give --criterion slope, height, angle or eccentricity too");
+        CHECK(complaint<CommandGrid>({"a.csv", "-o", "b.tif", "--budget", "5"}) ==
+              "--budget is for optimising: give --criterion slope, height, angle or eccentricity too");
+    }
+
     TEST_CASE("info counts conflicts instead of failing on them") {
         CommandInfo info;
         info.setup({"a.csv"});
@@ -125,8 +198,8 @@ TEST_SUITE("tools/setup") {
               "--domain takes convex, trimmed or concave:LENGTH, not \"round\"");
         CHECK(complaint<CommandTin>({"a.csv", "-o", "b", "--domain", "concave:-1"}) ==
               "--domain concave:LENGTH needs a number above zero, not \"-1\"");
-        CHECK(complaint<CommandTin>({"a.csv", "-o", "b", "--criterion", "slope"}) ==
-              "--criterion takes delaunay, not \"slope\"");
+        CHECK(complaint<CommandTin>({"a.csv", "-o", "b", "--criterion", "length"}) ==
+              "--criterion takes delaunay, slope, height, angle or eccentricity, not \"length\"");
         CHECK(complaint<CommandTin>({"a.csv", "-o", "b", "--duplicates", "any"}) ==
               "--duplicates takes error, first, last, min, max, mean or median, not \"any\"");
         CHECK(complaint<CommandTin>({"a.csv", "-o", "b", "--duplicate-tolerance", "-1"}) ==

@@ -1,0 +1,147 @@
+#include "criterion_report.hpp"
+
+#include <doctest/doctest.h>
+
+namespace {
+
+using namespace tinwright;
+using namespace tinwright::tools;
+
+TriangulationOptions options_for(const std::string& criterion, const std::string& scope = "",
+                                 const std::string& budget = "") {
+    TriangulationOptions options;
+    options.criterion_text = criterion;
+    options.scope_text = scope;
+    options.budget_text = budget;
+    options.finish(DomainRule::Kind::Convex);
+    return options;
+}
+
+OptimizeReport sample_result() {
+    OptimizeReport result;
+    result.before = {12.25, 8.5};
+    result.after = {4.5, 3.25};
+    result.proof = Proof::Theorem;
+    result.insertions = 1234;
+    result.tries = 5678;
+    result.candidates = 9;
+    result.frozen = 12;
+    return result;
+}
+
+io::Crs in_metres() { return io::Crs::parse("EPSG:25832"); }
+io::Crs nowhere() { return {}; }
+
+}  // namespace
+
+TEST_SUITE("tools/criterion_report") {
+    TEST_CASE("people read what became better, whether that is proven, and what it took") {
+        const CriterionReport report =
+            make_criterion_report(options_for("slope"), sample_result(), in_metres());
+        CHECK(criterion_lines(report) ==
+              std::vector<std::string>{
+                  "slope, scope top:0.5%", "greatest slope 12.25 -> 4.5 (interior 8.5 -> 3.25)",
+                  "the worst face proven optimal (theorem)",
+                  "1234 edges inserted, 5678 faces tried, 12 as good as can be, no ties"});
+    }
+
+    TEST_CASE("lengths have the unit of the CRS, angles are degrees") {
+        const auto second_line = [](const char* criterion, const io::Crs& crs) {
+            return criterion_lines(make_criterion_report(options_for(criterion), sample_result(), crs)).at(1);
+        };
+        CHECK(second_line("height", in_metres()) ==
+              "least height 12.25 -> 4.5 metre (interior 8.5 -> 3.25 metre)");
+        CHECK(second_line("eccentricity", nowhere()) ==
+              "greatest eccentricity 12.25 -> 4.5 (interior 8.5 -> 3.25)");
+        CHECK(second_line("angle", in_metres()) ==
+              "largest angle 12.25 -> 4.5 deg (interior 8.5 -> 3.25 deg)");
+        const auto unit = [](const char* criterion, const io::Crs& crs) {
+            return make_criterion_report(options_for(criterion), sample_result(), crs).unit;
+        };
+        CHECK(unit("height", in_metres()) == "metre");
+        CHECK(unit("height", nowhere()) == "CRS unit");
+        CHECK(unit("angle", nowhere()) == "degree");
+        CHECK(unit("slope", in_metres()) == "ratio");
+    }
+
+    TEST_CASE("every kind of proof, and of none, has its words") {
+        const auto third_line = [](const char* scope, Proof proof, StoppedBy stopped_by) {
+            OptimizeReport result = sample_result();
+            result.proof = proof;
+            result.stopped_by = stopped_by;
+            return criterion_lines(make_criterion_report(options_for("slope", scope), result, in_metres()))
+                .at(2);
+        };
+        CHECK(third_line("vector", Proof::Theorem, StoppedBy::Finished) ==
+              "every face proven optimal (theorem)");
+        CHECK(third_line("max", Proof::Tested, StoppedBy::Finished) ==
+              "the worst face tested to be optimal; equal measures, which the theorem excludes, were met");
+        CHECK(third_line("above:9", Proof::None, StoppedBy::Finished) ==
+              "not proven optimal: the scope ends before a face that cannot be improved");
+        CHECK(third_line("max", Proof::None, StoppedBy::Budget) ==
+              "not proven optimal: stopped by the budget");
+        CHECK(third_line("max", Proof::None, StoppedBy::Interrupt) ==
+              "not proven optimal: stopped by an interrupt");
+    }
+
+    TEST_CASE("what a file keeps is read back") {
+        CriterionReport report =
+            make_criterion_report(options_for("height", "vector"), sample_result(), in_metres());
+        const io::TinMetadata metadata = criterion_metadata(report);
+        const CriterionReport read = read_criterion_report(metadata);
+        CHECK_FALSE(read.counts.has_value());
+        report.counts.reset();
+        CHECK(criterion_json(read).text() == criterion_json(report).text());
+        CHECK(criterion_metadata(read) == metadata);
+        CHECK(criterion_lines(read) ==
+              std::vector<std::string>{"height, scope vector (as the file says)",
+                                       "least height 12.25 -> 4.5 metre (interior 8.5 -> 3.25 metre)",
+                                       "every face proven optimal (theorem)"});
+    }
+
+    TEST_CASE("a Delaunay TIN, and one that says nothing, have no more than a name") {
+        const CriterionReport report = make_criterion_report(options_for(""), std::nullopt, in_metres());
+        CHECK(criterion_lines(report).empty());
+        CHECK(criterion_metadata(report) == io::TinMetadata{{"TINWRIGHT_CRITERION", "delaunay"}});
+        CHECK(criterion_json(report).text() == JsonValue::object().set("name", "delaunay").text());
+        CHECK(criterion_metadata(read_criterion_report({{"author", "somebody"}})).empty());
+    }
+
+    TEST_CASE("JSON says false, not a text, where nothing is proven, and leaves out what is not there") {
+        OptimizeReport result = sample_result();
+        result.proof = Proof::None;
+        result.after.interior.reset();
+        const std::string text =
+            criterion_json(make_criterion_report(options_for("slope"), result, in_metres())).text();
+        CHECK(text.find("\"proven\": false") != std::string::npos);
+        CHECK(text.find("\"worst_interior\":") == std::string::npos);
+    }
+
+    TEST_CASE("a job that was stopped is warned about, with what to do") {
+        OptimizeReport result = sample_result();
+        result.stopped_by = StoppedBy::Budget;
+        CHECK(criterion_warnings(options_for("angle", "", "5"), result, in_metres(), "") ==
+              std::vector<std::string>{"the budget of 5 s ran out: the TIN is valid but its worst angle is "
+                                       "not proven optimal; give a longer --budget"});
+        result.stopped_by = StoppedBy::Interrupt;
+        CHECK(criterion_warnings(options_for("height"), result, in_metres(), "") ==
+              std::vector<std::string>{"interrupted while optimising: the TIN is valid but its worst height "
+                                       "is not proven optimal"});
+        CHECK(criterion_warnings(options_for(""), std::nullopt, in_metres(), "").empty());
+    }
+
+    TEST_CASE("slopes in mixed or unknown units are warned about once") {
+        const auto warnings = [](const io::Crs& crs, const std::string& z_unit) {
+            return criterion_warnings(options_for("slope"), sample_result(), crs, z_unit);
+        };
+        const std::string slopes = "slopes are z units per CRS unit: ";
+        CHECK(warnings(in_metres(), "metre").empty());
+        CHECK(warnings(in_metres(), "") ==
+              std::vector{slopes + "the unit of z is unknown, that of the CRS is metre"});
+        CHECK(warnings(in_metres(), "foot") == std::vector{slopes + "z is in foot, the CRS in metre"});
+        CHECK(warnings(nowhere(), "") == std::vector{slopes + "the units are unknown"});
+        CHECK(warnings(io::Crs::parse("EPSG:4326"), "metre") ==
+              std::vector{slopes + "the CRS is in degrees"});
+        CHECK(criterion_warnings(options_for("height"), sample_result(), nowhere(), "").empty());
+    }
+}
