@@ -177,8 +177,11 @@ TEST_SUITE("optimal/edge_insertion") {
                 CAPTURE(seed);
                 const Tin start = general_tin(static_cast<std::uint64_t>(seed));
                 const long double worst = badnesses_of(start, criterion, Faces::Terrain).front();
-                const long double stop =
-                    criterion == Criterion::Height ? worst * (1 - 1e-6L) : worst * (1 + 1e-6L) + 1e-6L;
+                // Nothing measures more than 180 degrees.
+                const long double most = criterion == Criterion::Angle ? 180 : INFINITY;
+                const long double stop = criterion == Criterion::Height
+                                             ? worst * (1 - 1e-6L)
+                                             : std::min(worst * (1 + 1e-6L) + 1e-6L, most);
                 Tin tin = start;
                 const OptimizeReport report =
                     optimize_to({Scope::Kind::Above, report_of(criterion, stop)}, criterion, tin);
