@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # The main job on the sample survey: installs what is missing, builds the tinwright command and makes in
-# samples/out/ a TIN (valley.gpkg), a DEM (valley.tif) and a shaded picture with the TIN's edges (valley.png).
+# samples/out/ a TIN (valley.gpkg), a DEM (valley.tif), a shaded picture with the TIN's edges (valley.png), and the TIN
+# whose steepest face is the least steep possible (valley_gentle.gpkg).
 # TINWRIGHT_BUILD_DIR (default: build/ of the checkout) holds the build.
 set -euo pipefail
 
@@ -31,6 +32,9 @@ say "survey points to a TIN"
 run tinwright tin "$survey" --domain trimmed -o "$out/valley.gpkg" --overwrite
 say "the TIN to a DEM"
 run tinwright grid "$out/valley.gpkg" --resolution 1 -o "$out/valley.tif" --overwrite
+
+say "the same points with the steepest face as gentle as any TIN of them can have it, proven"
+run tinwright tin "$survey" --domain trimmed --criterion slope -o "$out/valley_gentle.gpkg" --overwrite
 
 say "a picture: shaded, at 0.4 m, with the TIN's edges, then halved so that the edges become thin"
 work=$(mktemp -d)
