@@ -97,6 +97,49 @@ Four near_circle_moved(Random& random, double limit) {
     return four;
 }
 
+/// Two segments within `limit` of zero: any, as long as each other, or all but so.
+Four near_equal_distances(Random& random, double limit) {
+    const double part = limit / 2;
+    const auto any = [&] { return std::floor((2 * random.real() - 1) * part); };
+    const Key2 a{any(), any()};
+    const Key2 c{any(), any()};
+    const Key2 step{any(), any()};
+    const Key2 turned = random.integer(0, 1) == 0 ? Key2{-step.y, step.x} : Key2{step.y, step.x};
+    Four four{{a, {a.x + step.x, a.y + step.y}, c, {c.x + turned.x, c.y + turned.y}}};
+    switch (random.integer(0, 3)) {
+        case 0:
+            four[3] = {any(), any()};
+            break;
+        case 1:
+            four[3] = moved(random, four[3], limit);
+            break;
+        default:
+            break;
+    }
+    return four;
+}
+
+/// a, apex, b within `limit` of zero: any angle, a right one, or all but so.
+Triple near_right_angle(Random& random, double limit) {
+    const double part = limit / 8;
+    const auto any = [&] { return std::floor((2 * random.real() - 1) * part); };
+    const Key2 apex{any(), any()};
+    const Key2 step{any(), any()};
+    const double k = static_cast<double>(random.integer(-4, 4));
+    Triple triple{{{apex.x + step.x, apex.y + step.y}, apex, {apex.x - k * step.y, apex.y + k * step.x}}};
+    switch (random.integer(0, 3)) {
+        case 0:
+            triple[2] = {any(), any()};
+            break;
+        case 1:
+            triple[2] = moved(random, triple[2], limit);
+            break;
+        default:
+            break;
+    }
+    return triple;
+}
+
 bool are_distinct(const Four& p) {
     for (std::size_t i = 0; i < 4; ++i) {
         for (std::size_t j = 0; j < i; ++j) {
@@ -241,6 +284,80 @@ TEST_SUITE("geometry/predicates") {
         // The greatest key, (1, 1), is lifted most: it lies above the plane of the other three, so outside.
         CHECK(incircle_perturbed({0, 0}, {1, 0}, {0, 1}, {1, 1}) == -1);
         CHECK(incircle_perturbed({0, 0}, {1, 0}, {1, 1}, {0, 1}) == 1);
+    }
+
+    TEST_CASE("compare_distances: every tier that answers agrees with integers of any length") {
+        for (const double limit : kLimits) {
+            CAPTURE(limit);
+            int zeros = 0;
+            for (int seed = 0; seed < cases(4000); ++seed) {
+                CAPTURE(seed);
+                Random random(static_cast<std::uint64_t>(seed));
+                const auto [a, b, c, d] = near_equal_distances(random, limit);
+                const int expected = oracle::compare_distances(a, b, c, d);
+                zeros += expected == 0 ? 1 : 0;
+                REQUIRE(compare_distances(a, b, c, d) == expected);
+                REQUIRE(internal::compare_distances_int128(a, b, c, d) == expected);
+                const int fast = internal::compare_squares(internal::localize(a, b).square,
+                                                           internal::localize(c, d).square);
+                REQUIRE((fast == expected || fast == internal::kUnsure));
+                REQUIRE(compare_distances(b, a, c, d) == expected);
+                REQUIRE(compare_distances(a, b, d, c) == expected);
+                REQUIRE(compare_distances(c, d, a, b) == -expected);
+            }
+            CHECK(zeros > cases(4000) / 5);
+        }
+    }
+
+    TEST_CASE(
+        "compare_distances: plain doubles decide small keys and clear cases, not a key's width at 2^45") {
+        const auto fast = [](Key2 a, Key2 b, Key2 c, Key2 d) {
+            return internal::compare_squares(internal::localize(a, b).square,
+                                             internal::localize(c, d).square);
+        };
+        CHECK(fast({0, 0}, {0x1p25, 1}, {5, 5}, {6, 5 + 0x1p25}) == 0);
+        CHECK(fast({0, 0}, {0x1p45, 0}, {0, 0}, {0x1p44, 0x1p44}) == 1);
+        CHECK(fast({0, 0}, {0x1p45, 1}, {0, 0}, {0x1p45, 0}) == internal::kUnsure);
+        CHECK(compare_distances({0, 0}, {0x1p45, 1}, {0, 0}, {0x1p45, 0}) == 1);
+        // The widest keys: the diagonals of the contract's square, one of them a key shorter.
+        const double most = 0x1p52;
+        CHECK(compare_distances({-most, -most}, {most, most}, {-most, most}, {most, -most}) == 0);
+        CHECK(compare_distances({-most, -most}, {most, most}, {-most, most}, {most, 1 - most}) == 1);
+    }
+
+    TEST_CASE("angle_sign: every tier that answers agrees with integers of any length") {
+        for (const double limit : kLimits) {
+            CAPTURE(limit);
+            int zeros = 0;
+            for (int seed = 0; seed < cases(4000); ++seed) {
+                CAPTURE(seed);
+                Random random(static_cast<std::uint64_t>(seed));
+                const auto [a, apex, b] = near_right_angle(random, limit);
+                const int expected = oracle::angle_sign(a, apex, b);
+                zeros += expected == 0 ? 1 : 0;
+                REQUIRE(angle_sign(a, apex, b) == expected);
+                REQUIRE(angle_sign(b, apex, a) == expected);
+                REQUIRE(internal::angle_sign_int128(a, apex, b) == expected);
+                const int fast =
+                    internal::inner_product_local(internal::localize(a, apex), internal::localize(b, apex));
+                REQUIRE((fast == expected || fast == internal::kUnsure));
+            }
+            CHECK(zeros > cases(4000) / 5);
+        }
+    }
+
+    TEST_CASE("angle_sign: the textbook's angles, and a key's width at 2^45") {
+        CHECK(angle_sign({1, 0}, {0, 0}, {1, 1}) == 1);
+        CHECK(angle_sign({1, 0}, {0, 0}, {0, 1}) == 0);
+        CHECK(angle_sign({1, 0}, {0, 0}, {-1, 1}) == -1);
+        const Key2 far{0x1p45, 0x1p45 - 1};
+        const Key2 right{1 - 0x1p45, 0x1p45};
+        const Key2 acute{2 - 0x1p45, 0x1p45};
+        CHECK(internal::inner_product_local(internal::localize(far, {0, 0}),
+                                            internal::localize(right, {0, 0})) == internal::kUnsure);
+        CHECK(angle_sign(far, {0, 0}, right) == 0);
+        CHECK(angle_sign(far, {0, 0}, acute) == 1);
+        CHECK(angle_sign({0x1p52, 0x1p52}, {-0x1p52, -0x1p52}, {1 - 0x1p52, -0x1p52}) == 1);
     }
 
     TEST_CASE("keys are ordered by x, then y") {

@@ -65,6 +65,20 @@ int incircle(Key2 a, Key2 b, Key2 c, Key2 d) {
     return lifted(p, {square(p[0]), square(p[1]), square(p[2]), square(p[3])}).sign();
 }
 
+int compare_distances(Key2 a, Key2 b, Key2 c, Key2 d) {
+    const auto square_of = [](Key2 from, Key2 to) {
+        return square({big(to.x) - big(from.x), big(to.y) - big(from.y)});
+    };
+    return cpp_int(square_of(a, b) - square_of(c, d)).sign();
+}
+
+int angle_sign(Key2 a, Key2 apex, Key2 b) {
+    const BigPoint o = big(apex);
+    const BigPoint p = big(a);
+    const BigPoint q = big(b);
+    return cpp_int((p.x - o.x) * (q.x - o.x) + (p.y - o.y) * (q.y - o.y)).sign();
+}
+
 int incircle_perturbed(Key2 a, Key2 b, Key2 c, Key2 d) {
     const std::array<Key2, 4> keys{a, b, c, d};
     std::array<BigPoint, 4> p;

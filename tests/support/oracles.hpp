@@ -16,6 +16,9 @@ namespace tinwright_tests::oracle {
 /// Signs of determinants in integers of any length.
 int orient2d(tinwright::Key2 a, tinwright::Key2 b, tinwright::Key2 c);
 int incircle(tinwright::Key2 a, tinwright::Key2 b, tinwright::Key2 c, tinwright::Key2 d);
+/// Sign of |a b| - |c d|, and of the inner product of a - apex and b - apex.
+int compare_distances(tinwright::Key2 a, tinwright::Key2 b, tinwright::Key2 c, tinwright::Key2 d);
+int angle_sign(tinwright::Key2 a, tinwright::Key2 apex, tinwright::Key2 b);
 
 /// `incircle` of points that are truly lifted off the paraboloid: by 2^-4000 times 1, 2^400, 2^800 and
 /// 2^1200 in lexicographic order. Any integer determinant of keys is far from both ends of that scale.
