@@ -2,6 +2,7 @@
 #define TINWRIGHT_CRITERIA_ANGLE_HPP
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <span>
 
@@ -37,6 +38,10 @@ class AngleCriterion {
         return std::atan2(1.0, -measure) * (180 / std::numbers::pi);
     }
     [[nodiscard]] static double from_report(double degrees) {
+        constexpr double kNone = std::numeric_limits<double>::infinity();
+        if (degrees <= 0 || degrees >= 180) {
+            return degrees <= 0 ? -kNone : kNone;
+        }
         return -1 / std::tan(degrees * (std::numbers::pi / 180));
     }
 

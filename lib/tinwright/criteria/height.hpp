@@ -1,6 +1,7 @@
 #ifndef TINWRIGHT_CRITERIA_HEIGHT_HPP
 #define TINWRIGHT_CRITERIA_HEIGHT_HPP
 
+#include <algorithm>
 #include <cmath>
 #include <span>
 
@@ -35,7 +36,7 @@ class HeightCriterion {
 
     [[nodiscard]] double to_report(double measure) const { return quantum_ / std::sqrt(measure); }
     [[nodiscard]] double from_report(double height) const {
-        const double steps = height / quantum_;
+        const double steps = std::max(height, 0.0) / quantum_;
         return 1 / (steps * steps);
     }
 

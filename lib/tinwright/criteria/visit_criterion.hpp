@@ -23,13 +23,24 @@ concept FaceCriterion = requires(const C& criterion, VertexId v, double x) {
     /// Corners (bit i: corner i) at which every improvement has to break the face: all must be tried
     /// if there are several; none if the face cannot be improved.
     { criterion.anchors(v, v, v) } -> std::same_as<unsigned>;
-    /// To the unit that people read, and back.
+    /// To the unit that people read, and back; a number that no face can have stays beyond those of faces.
     { criterion.to_report(x) } -> std::same_as<double>;
     { criterion.from_report(x) } -> std::same_as<double>;
 };
 
+/// What the search under the weak condition asks besides: a cut, which knows when no edge q s through an edge
+/// a b can improve a face q r p. Sound, not exact: it may leave too much, and it is asked at every
+/// `kLevels`th level of the search only.
+template <class C>
+concept WeakCriterion = FaceCriterion<C> &&
+    requires(const C& criterion, VertexId v, double x, typename C::Cut::State state) {
+    { C::Cut::kLevels } -> std::convertible_to<unsigned>;
+    { typename C::Cut(criterion, v, v, v, x).start() } -> std::same_as<typename C::Cut::State>;
+    { typename C::Cut(criterion, v, v, v, x).cross(state, v, v) } -> std::same_as<bool>;
+};
+
 static_assert(FaceCriterion<AngleCriterion> && FaceCriterion<HeightCriterion>);
-static_assert(FaceCriterion<SlopeCriterion> && FaceCriterion<EccentricityCriterion>);
+static_assert(WeakCriterion<SlopeCriterion> && WeakCriterion<EccentricityCriterion>);
 
 /// Calls `visitor` with the criterion's code, made for `tin`, which must outlive it.
 template <class Visitor>

@@ -64,11 +64,12 @@ Int256 product(Int128 a, Int128 b) {
 
 namespace internal {
 
-int orient2d_int128(Key2 a, Key2 b, Key2 c) {
-    const Int128 left = static_cast<Int128>(difference(a.x, c.x)) * difference(b.y, c.y);
-    const Int128 right = static_cast<Int128>(difference(a.y, c.y)) * difference(b.x, c.x);
-    return sign(left - right);
+int turn_int128(Direction a, Direction b) {
+    const auto integer = [](double value) { return static_cast<Int128>(static_cast<std::int64_t>(value)); };
+    return sign(integer(a.x) * integer(b.y) - integer(a.y) * integer(b.x));
 }
+
+int orient2d_int128(Key2 a, Key2 b, Key2 c) { return turn_int128(direction(a, c), direction(b, c)); }
 
 int incircle_int128(Key2 a, Key2 b, Key2 c, Key2 d) {
     // Squares and cross products stay below 2^61, their products below 2^122, the sum below 2^124.

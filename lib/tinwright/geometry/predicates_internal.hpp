@@ -49,6 +49,29 @@ inline int orient2d_local(const LocalKey& a, const LocalKey& b) {
     return kUnsure;
 }
 
+/// The way from one key to another, exact.
+struct Direction {
+    double x = 0;
+    double y = 0;
+};
+
+inline Direction direction(Key2 to, Key2 from) { return {to.x - from.x, to.y - from.y}; }
+
+/// 128-bit integers; always answers.
+int turn_int128(Direction a, Direction b);
+
+/// Side to which one turns from direction a to direction b: +1 left, -1 right, 0 neither. Exact.
+[[gnu::always_inline]] inline int turn(Direction a, Direction b) {
+    const double left = a.x * b.y;
+    const double right = a.y * b.x;
+    const double det = left - right;
+    const double size = std::abs(left) + std::abs(right);
+    if (std::abs(det) > 4 * kUnit * size || size < kExactIntegers) [[likely]] {
+        return sign_of(det);
+    }
+    return turn_int128(a, b);
+}
+
 /// Position of the origin relative to the circle through a, b, c (counter-clockwise): +1 inside. With the
 /// usual permanent replaced by a bound that takes five operations.
 inline int incircle_local(const LocalKey& a, const LocalKey& b, const LocalKey& c) {

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -24,8 +25,8 @@ struct SearchSpace {
     std::span<const double> measures;  ///< one a slot; infinite where there is no terrain
 
     [[nodiscard]] int orient(VertexId a, VertexId b, VertexId c) const {
-        const int fast = orient2d_double(keys[a.value], keys[b.value], keys[c.value]);
-        return fast != kUnsure ? fast : orient2d_int128(keys[a.value], keys[b.value], keys[c.value]);
+        const Key2 origin = keys[c.value];
+        return turn(direction(keys[a.value], origin), direction(keys[b.value], origin));
     }
     /// Whether an insertion that improves a face of measure `limit` may cross `h` into the face behind it: a
     /// worse face is already as good as it can be, and no terrain has an infinite measure.
@@ -59,6 +60,9 @@ class MeasureLimit {
     double just_above_;
     std::size_t ties_ = 0;
 };
+
+/// Lets a search look as deep as it wants.
+inline constexpr unsigned kNoHorizon = std::numeric_limits<unsigned>::max();
 
 enum class Side : std::uint8_t { Left, Right };
 

@@ -62,6 +62,16 @@ class Stopwatch {
     StoppedBy stopped_by_ = StoppedBy::Finished;
 };
 
+/// The search for edges to insert that a criterion's condition calls for.
+template <FaceCriterion C>
+struct SearchFor {
+    using Type = internal::WedgeSearch;
+};
+template <WeakCriterion C>
+struct SearchFor<C> {
+    using Type = internal::EmptyTriangleSearch<C>;
+};
+
 /// Improves faces of one TIN under one criterion.
 template <FaceCriterion C>
 class Engine {
@@ -77,9 +87,6 @@ class Engine {
     OptimizeReport run(const Scope& scope);
 
   private:
-    using Search = std::conditional_t<C::kTraits.condition == InsertionCondition::Strong,
-                                      internal::WedgeSearch, internal::EmptyTriangleSearch>;
-
     struct QueuedFace {
         double measure;
         FaceId face;
@@ -97,20 +104,32 @@ class Engine {
     [[nodiscard]] WorstMeasures worst() const;
     [[nodiscard]] double measure_of_rank(std::size_t rank) const;
 
-    bool improve(FaceId f);
+    bool improve(FaceId f, unsigned horizon = internal::kNoHorizon);
+    void commit();
     void descend(double stop, bool only_worst);
     void descend_to_worst();
     void sweep_until_stable();
-    bool sweep(double done_before, double done_after);
+    void sweep(unsigned horizon);
+    void forget_tries_near(const std::vector<FaceId>& changed);
+
+    /// A try of a face that failed.
+    struct FailedTry {
+        std::uint8_t reach = kNone;  ///< how deep it looked, `kFar` if that deep or deeper
+        std::uint8_t ties = 0;       ///< measures met that equal the face's; 255 if as many or more
+    };
+    static constexpr std::uint8_t kNone = 0;  ///< there was none, or it does not count any more
+    static constexpr std::uint8_t kFar = 255;
 
     TriangleMesh& mesh_;
     std::size_t vertex_count_;
     const C& criterion_;
     Stopwatch stopwatch_;
     LargeVector<double> measures_;
+    LargeVector<FailedTry> tries_;  ///< the last one of each slot, for sweeps
     internal::SearchSpace<C> space_;
-    Search search_;
+    typename SearchFor<C>::Type search_;
     OptimizeReport report_;
+    FailedTry failed_;  ///< the last of all
 };
 
 template <FaceCriterion C>
@@ -161,27 +180,40 @@ double Engine<C>::measure_of_rank(std::size_t rank) const {
     return *place;
 }
 
-/// Tries to improve a face at its anchors; if it can be, commits. The new faces are in `search_.refill()`.
+/// Tries to improve a face at its anchors, looking at most `horizon` faces deep. If it can be, commits, and
+/// the new faces are in `search_.refill()`; else `failed_` tells of the try.
 template <FaceCriterion C>
-bool Engine<C>::improve(FaceId f) {
+bool Engine<C>::improve(FaceId f, unsigned horizon) {
     const auto [a, b, c] = mesh_.face(f).vertex;
     const unsigned anchors = criterion_.anchors(a, b, c);
     ++report_.tries;
     internal::MeasureLimit limit(measures_[f.value]);
+    unsigned reach = 1;
+    bool is_cut_short = false;
     for (unsigned corner = 0; corner < 3; ++corner) {
-        if ((anchors >> corner & 1U) == 0 || !search_.find(space_, limit, f, corner)) {
+        if ((anchors >> corner & 1U) == 0) {
             continue;
         }
-        const internal::Refill& refill = search_.refill();
-        refill_cavity(mesh_, refill.slots, refill.faces);
-        for (const FaceId slot : refill.slots) {
-            measures_[slot.value] = measure_of(slot);
+        if (search_.find(space_, limit, f, corner, horizon)) {
+            commit();
+            return true;
         }
-        ++report_.insertions;
-        return true;
+        reach = std::max(reach, search_.reach());
+        is_cut_short = is_cut_short || search_.reach() > horizon;
     }
-    report_.ties += limit.ties();
+    failed_.reach = is_cut_short ? kNone : static_cast<std::uint8_t>(std::min<unsigned>(reach, kFar));
+    failed_.ties = static_cast<std::uint8_t>(std::min<std::size_t>(limit.ties(), 255));
     return false;
+}
+
+template <FaceCriterion C>
+void Engine<C>::commit() {
+    const internal::Refill& refill = search_.refill();
+    refill_cavity(mesh_, refill.slots, refill.faces);
+    for (const FaceId slot : refill.slots) {
+        measures_[slot.value] = measure_of(slot);
+    }
+    ++report_.insertions;
 }
 
 /// Improves faces worst first down to the measure `stop`; with `only_worst`, until one cannot be improved.
@@ -214,6 +246,7 @@ void Engine<C>::descend(double stop, bool only_worst) {
             }
         } else {
             ++report_.frozen;
+            report_.ties += failed_.ties;
             if (only_worst) {
                 return;
             }
@@ -234,54 +267,110 @@ void Engine<C>::descend_to_worst() {
     }
 }
 
+/// Improves faces, each where it is met, until no face can be improved. That order is not the theorems', nor
+/// are their bounds on the number of steps; but every step lowers the sorted vector, and where no face can be
+/// improved the optimum is reached (docs/criteria.md, "Any order"). It is several times faster than worst
+/// first, which wanders through all memory.
 template <FaceCriterion C>
 void Engine<C>::sweep_until_stable() {
-    // Sweeps take neither the order of the theorems nor their bounds, but every step lowers the sorted
-    // vector, and where nothing can be improved the optimum is reached (docs/criteria.md, "Any order").
-    // Should there be many more steps than ever seen on terrain, worst first bounds them.
+    // Many more steps than ever seen on terrain: from then on the worst comes first.
     const std::size_t most = 16 * vertex_count_;
-    double done = 0;
-    while (sweep(done, (1 + done) / 2) && stopwatch_.stopped_by() == StoppedBy::Finished) {
-        done = (1 + done) / 2;
-        if (report_.insertions > most) {
+    tries_.assign(measures_.size(), FailedTry{});
+    if constexpr (WeakCriterion<C>) {
+        // Most improvements are near, but most of the time goes into looking far: that is left for later.
+        constexpr unsigned kNear = 4;
+        sweep(kNear);
+    }
+    std::size_t insertions = 0;
+    do {
+        insertions = report_.insertions;
+        if (insertions > most) {
             descend(-kInfinity, false);
+            tries_.assign(measures_.size(), FailedTry{});
+        }
+        sweep(internal::kNoHorizon);
+    } while (insertions != report_.insertions && stopwatch_.stopped_by() == StoppedBy::Finished);
+    report_.frozen = 0;
+    report_.ties = 0;
+    for (std::uint32_t f = 0; f < tries_.size(); ++f) {
+        if (mesh_.is_terrain({f}) && tries_[f].reach != kNone) {
+            ++report_.frozen;
+            report_.ties += tries_[f].ties;
         }
     }
 }
 
-/// Tries every face once, and again what changed next to it. Returns whether anything was improved.
+/// Tries every face that has to be, and the new ones where a try succeeds. Afterwards a failed try stands
+/// unless what it looked at has changed since.
 template <FaceCriterion C>
-bool Engine<C>::sweep(double done_before, double done_after) {
-    const std::size_t insertions_before = report_.insertions;
+void Engine<C>::sweep(unsigned horizon) {
+    std::vector<FaceId> changed;
     std::vector<FaceId> pending;
-    report_.frozen = 0;
-    report_.ties = 0;
     for (std::uint32_t f = 0; f < measures_.size(); ++f) {
-        if (measures_[f] == kInfinity) {
+        if (tries_[f].reach != kNone || measures_[f] == kInfinity) {
             continue;
-        }
-        if (stopwatch_.is_over([&] {
-                return done_before + (done_after - done_before) * double(f) / double(measures_.size());
-            })) {
-            return true;
         }
         pending.push_back({f});
         while (!pending.empty()) {
             const FaceId face = pending.back();
             pending.pop_back();
-            if (!improve(face)) {
-                ++report_.frozen;
+            if (stopwatch_.is_over([&] { return double(f) / double(measures_.size()); })) {
+                return;
+            }
+            if (!improve(face, horizon)) {
+                tries_[face.value] = failed_;
                 continue;
             }
             for (const FaceId slot : search_.refill().slots) {
+                tries_[slot.value] = {};
+                changed.push_back(slot);
                 pending.push_back(slot);
-            }
-            if (stopwatch_.is_over([&] { return done_before; })) {
-                return true;
             }
         }
     }
-    return report_.insertions != insertions_before;
+    forget_tries_near(changed);
+}
+
+/// Forgets the tries that looked as deep as the nearest changed face is away, in steps from face to face: no
+/// other can have seen a change.
+template <FaceCriterion C>
+void Engine<C>::forget_tries_near(const std::vector<FaceId>& changed) {
+    constexpr std::uint8_t kUnseen = 255;
+    LargeVector<std::uint8_t> distance(measures_.size(), kUnseen);
+    std::vector<FaceId> level;
+    for (const FaceId f : changed) {
+        if (distance[f.value] == kUnseen) {
+            distance[f.value] = 0;
+            tries_[f.value] = {};
+            level.push_back(f);
+        }
+    }
+    if (level.empty()) {
+        return;
+    }
+    std::vector<FaceId> next_level;
+    for (std::uint8_t steps = 1; !level.empty() && steps < kFar; ++steps) {
+        next_level.clear();
+        for (const FaceId f : level) {
+            for (const HalfEdgeId twin : mesh_.face(f).twin) {
+                const FaceId g = face_of(twin);
+                if (distance[g.value] != kUnseen || measures_[g.value] == kInfinity) {
+                    continue;
+                }
+                distance[g.value] = steps;
+                next_level.push_back(g);
+                if (tries_[g.value].reach >= steps) {
+                    tries_[g.value] = {};
+                }
+            }
+        }
+        std::swap(level, next_level);
+    }
+    for (FailedTry& failed : tries_) {
+        if (failed.reach == kFar) {
+            failed = {};
+        }
+    }
 }
 
 template <FaceCriterion C>

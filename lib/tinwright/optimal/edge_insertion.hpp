@@ -33,8 +33,11 @@ struct OptimizeOptions {
 
 /// What is known of an optimum.
 enum class Proof : std::uint8_t {
-    None,     ///< nothing: stopped early, or the scope ended above the first face that could not be improved
-    Tested,   ///< optimal up to ties: measures that were equal, which the theorems exclude, were met
+    None,  ///< nothing: stopped early, or the scope ended above the first face that could not be improved
+    /// Optimal up to ties: measures that were equal, which the theorems exclude, were met. From a Delaunay
+    /// TIN the worst measure has always been seen to be the least; slopes of coplanar neighbours can keep it
+    /// from being so when the start is another.
+    Tested,
     Theorem,  ///< proven [tan1993, Theorem 4.1]
 };
 
@@ -57,8 +60,9 @@ struct OptimizeReport {
 /// Improves the faces of `tin` under a criterion by edge insertion, without crossing a constrained edge or
 /// leaving the terrain. Vertices, constrained edges and the domain stay; the number of faces too.
 ///
-/// From the same TIN always the same result. Without ties the result of scope vector is unique, whatever
-/// the faces at the start. Stopped early, `tin` is a valid triangulation that is better than at the start.
+/// Meant to start from a Delaunay TIN. From the same TIN always the same result; without ties the result of
+/// scope vector is unique, whatever the faces at the start. Stopped early, `tin` is a valid triangulation
+/// that is better than at the start.
 ///
 /// `tin`: at least one terrain face.
 /// Cost: seconds for 10^6 samples, growing about linearly (docs/benchmarks.md); at worst quadratic for angle

@@ -13,33 +13,34 @@ namespace tinwright::internal {
 /// The search for an edge to insert under the weak condition. Of all improvements of a face p q r that break
 /// it at q, take the one whose edge q s crosses the fewest edges: it holds the faces q p s and q s r, so the
 /// triangle p r s is empty, and both p and r see s (docs/criteria.md, "The minimal candidate"). The search
-/// walks outwards from p r through what both still see, nearest first. Not installed.
+/// walks outwards from p r through what both still see, nearest first, as far as the criterion's cut leaves
+/// hope. Not installed.
+template <WeakCriterion C>
 class EmptyTriangleSearch {
   public:
-    /// As `WedgeSearch::find`. Linear in the faces in sight, plus the length of the way to each candidate of
-    /// which both faces at q are better.
-    template <FaceCriterion C>
-    bool find(const SearchSpace<C>& space, MeasureLimit& limit, FaceId face, unsigned anchor);
+    /// As `WedgeSearch::find`. Linear in the faces in sight, plus the
+    /// length of the way to each candidate of which both faces at q are better.
+    bool find(const SearchSpace<C>& space, MeasureLimit& limit, FaceId face, unsigned anchor,
+              unsigned horizon = kNoHorizon);
 
     [[nodiscard]] const Refill& refill() const { return refill_; }
     [[nodiscard]] std::size_t candidates() const { return candidates_; }
 
+    /// How deep the last search that failed looked, 1 for the face next to the face to improve; more than the
+    /// horizon if it wanted to look deeper.
+    [[nodiscard]] unsigned reach() const { return reach_; }
+
   private:
-    /// The ray from a vertex through another.
-    struct Ray {
-        VertexId from;
-        VertexId through;
-    };
-    /// An edge to cross next, and what bounds the view through it: vertices seen lie to the right of the left
-    /// ray and to the left of the right ray.
+    /// An edge to cross next, and what bounds the view through it: the vertices in sight lie to the right of
+    /// a ray from p and to the left of a ray from r, given by their directions in keys.
     struct Node {
         HalfEdgeId edge;  ///< in the face on the near side; runs from the right to the left
         std::uint32_t parent;
-        Ray left;
-        Ray right;
+        Direction left;
+        Direction right;
+        typename C::Cut::State state;
     };
 
-    template <FaceCriterion C>
     bool fill(const SearchSpace<C>& space, MeasureLimit& limit, FaceId face, unsigned anchor,
               std::uint32_t last);
 
@@ -49,58 +50,85 @@ class EmptyTriangleSearch {
     EarStack<Side::Right> right_;
     Refill refill_;
     std::size_t candidates_ = 0;
+    unsigned reach_ = 0;
 };
 
-template <FaceCriterion C>
-bool EmptyTriangleSearch::find(const SearchSpace<C>& space, MeasureLimit& limit, FaceId face,
-                               unsigned anchor) {
+template <WeakCriterion C>
+bool EmptyTriangleSearch<C>::find(const SearchSpace<C>& space, MeasureLimit& limit, FaceId face,
+                                  unsigned anchor, unsigned horizon) {
     const TriangleMesh& mesh = space.mesh;
+    constexpr std::size_t kLeastNodes = 64;
     const HalfEdgeId first = half_edge(face, next_corner(anchor));
+    reach_ = 1;
     if (!space.may_cross(first, limit.value())) {
         return false;
     }
     const VertexId q = mesh.vertex(face, anchor);
     const VertexId r = mesh.vertex(face, next_corner(anchor));
     const VertexId p = mesh.vertex(face, previous_corner(anchor));
-    nodes_.clear();
-    nodes_.push_back({first, 0, {q, p}, {q, r}});
-    for (std::uint32_t i = 0; i < nodes_.size(); ++i) {
-        const Node node = nodes_[i];
+    const Key2 at_q = space.keys[q.value];
+    const Key2 at_p = space.keys[p.value];
+    const Key2 at_r = space.keys[r.value];
+    const double measure = limit.value();
+    const typename C::Cut cut(space.criterion, q, p, r, measure);
+    nodes_.resize(std::max<std::size_t>(nodes_.size(), kLeastNodes));
+    nodes_[0] = {first, 0, direction(at_p, at_q), direction(at_r, at_q), cut.start()};
+    std::uint32_t count = 1;
+    std::uint32_t level_end = 1;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        if (count + 2 > nodes_.size()) {
+            nodes_.resize(2 * nodes_.size());
+        }
+        const Node& node = nodes_[i];
         const HalfEdgeId t = mesh.twin(node.edge);
-        const HalfEdgeId of_left = previous(t);  // from s to the left end
-        const HalfEdgeId of_right = next(t);     // from the right end to s
-        const VertexId s = mesh.origin(of_left);
-        const bool is_right_of_left = space.orient(node.left.from, node.left.through, s) < 0;
-        const bool is_left_of_right = space.orient(node.right.from, node.right.through, s) > 0;
-        bool goes_left = is_right_of_left;  // through the edge between s and the left end
-        bool goes_right = is_left_of_right;
-        Ray left = node.left;
-        Ray right = node.right;
-        if (is_right_of_left && is_left_of_right) {
+        const auto& beyond = mesh.face(face_of(t)).vertex;
+        const VertexId s = beyond[previous_corner(corner_of(t))];
+        const Key2 at_s = space.keys[s.value];
+        const Direction from_p = direction(at_s, at_p);
+        const Direction from_r = direction(at_s, at_r);
+        Direction left = node.left;
+        Direction right = node.right;
+        bool goes_left = turn(left, from_p) < 0;  // to the right of the left ray: through s and the left end
+        bool goes_right = turn(right, from_r) > 0;
+        if (goes_left && goes_right) {
             ++candidates_;
             if (limit.admits(space.criterion.measure(q, p, s)) &&
                 limit.admits(space.criterion.measure(q, s, r)) && fill(space, limit, face, anchor, i)) {
                 return true;
             }
-            goes_left = space.orient(r, s, mesh.origin(t)) > 0;
-            goes_right = space.orient(p, s, mesh.origin(of_right)) < 0;
-            left = {p, s};
-            right = {r, s};
+            left = from_p;
+            right = from_r;
+            const Key2 left_end = space.keys[beyond[corner_of(t)].value];
+            const Key2 right_end = space.keys[beyond[next_corner(corner_of(t))].value];
+            goes_left = turn(right, direction(left_end, at_r)) > 0;
+            goes_right = turn(left, direction(right_end, at_p)) < 0;
         }
-        if (goes_left && space.may_cross(of_left, limit.value())) {
-            nodes_.push_back({of_left, i, node.left, right});
+        const bool is_within = reach_ < horizon;
+        const bool is_to_cut = reach_ % C::Cut::kLevels == 0;
+        // Runs from s to the left end, and from the right end to s.
+        const HalfEdgeId of_left = previous(t);
+        const HalfEdgeId of_right = next(t);
+        if (goes_left && is_within && space.may_cross(of_left, measure)) {
+            nodes_[count] = {of_left, i, node.left, right, node.state};
+            count += !is_to_cut || cut.cross(nodes_[count].state, s, beyond[corner_of(t)]) ? 1 : 0;
         }
-        if (goes_right && space.may_cross(of_right, limit.value())) {
-            nodes_.push_back({of_right, i, left, node.right});
+        if (goes_right && is_within && space.may_cross(of_right, measure)) {
+            nodes_[count] = {of_right, i, left, node.right, node.state};
+            count +=
+                !is_to_cut || cut.cross(nodes_[count].state, beyond[next_corner(corner_of(t))], s) ? 1 : 0;
+        }
+        if (i + 1 == level_end) {
+            ++reach_;  // one more than was walked: it was looked whether to go there
+            level_end = count;
         }
     }
     return false;
 }
 
 /// Fills both sides of the edge from the anchor to the vertex behind the edge of node `last`.
-template <FaceCriterion C>
-bool EmptyTriangleSearch::fill(const SearchSpace<C>& space, MeasureLimit& limit, FaceId face, unsigned anchor,
-                               std::uint32_t last) {
+template <WeakCriterion C>
+bool EmptyTriangleSearch<C>::fill(const SearchSpace<C>& space, MeasureLimit& limit, FaceId face,
+                                  unsigned anchor, std::uint32_t last) {
     using Across = CavityFace::Across;
     const TriangleMesh& mesh = space.mesh;
     const VertexId q = mesh.vertex(face, anchor);

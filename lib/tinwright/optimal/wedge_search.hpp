@@ -12,12 +12,16 @@ namespace tinwright::internal {
 class WedgeSearch {
   public:
     /// Seeks an edge at corner `anchor` of `face` whose insertion replaces faces no worse than it by better
-    /// ones. If there is one, `refill()` is it. O(faces crossed).
+    /// ones, looking at most `horizon` faces deep. If there is one, `refill()` is it. O(faces crossed).
     template <FaceCriterion C>
-    bool find(const SearchSpace<C>& space, MeasureLimit& limit, FaceId face, unsigned anchor);
+    bool find(const SearchSpace<C>& space, MeasureLimit& limit, FaceId face, unsigned anchor,
+              unsigned horizon = kNoHorizon);
 
     [[nodiscard]] const Refill& refill() const { return refill_; }
     [[nodiscard]] std::size_t candidates() const { return candidates_; }
+    /// How deep the last search that failed looked, 1 for the face next to the face to improve; more than the
+    /// horizon if it wanted to look deeper.
+    [[nodiscard]] unsigned reach() const { return static_cast<unsigned>(refill_.slots.size()); }
 
   private:
     EarStack<Side::Left> left_;
@@ -27,11 +31,13 @@ class WedgeSearch {
 };
 
 template <FaceCriterion C>
-bool WedgeSearch::find(const SearchSpace<C>& space, MeasureLimit& limit, FaceId face, unsigned anchor) {
+bool WedgeSearch::find(const SearchSpace<C>& space, MeasureLimit& limit, FaceId face, unsigned anchor,
+                       unsigned horizon) {
     using Across = CavityFace::Across;
     // q: the anchor; s: the vertex being tried; `wedge_left`, `wedge_right`: the rays from q through them
     // bound what is left to try. `h` runs from the last vertex on the right to the last on the left.
     const TriangleMesh& mesh = space.mesh;
+    refill_.slots.assign(1, face);
     HalfEdgeId h = half_edge(face, next_corner(anchor));
     if (!space.may_cross(h, limit.value())) {
         return false;
@@ -41,7 +47,6 @@ bool WedgeSearch::find(const SearchSpace<C>& space, MeasureLimit& limit, FaceId 
     VertexId wedge_left = mesh.vertex(face, previous_corner(anchor));
     left_.start(q, wedge_left, half_edge(face, previous_corner(anchor)));
     right_.start(q, wedge_right, half_edge(face, anchor));
-    refill_.slots.assign(1, face);
     do {
         const HalfEdgeId t = mesh.twin(h);
         refill_.slots.push_back(face_of(t));
@@ -84,7 +89,7 @@ bool WedgeSearch::find(const SearchSpace<C>& space, MeasureLimit& limit, FaceId 
             right_.push(s);
             h = of_left;
         }
-    } while (space.may_cross(h, limit.value()));
+    } while (reach() <= horizon && space.may_cross(h, limit.value()));
     return false;
 }
 
