@@ -4,7 +4,9 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include "tinwright/criteria/visit_criterion.hpp"
 #include "tinwright/geometry/predicates.hpp"
@@ -13,6 +15,8 @@
 namespace tinwright {
 
 namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// A measure and a bound of its error, both in the criterion's own unit.
 struct Measured {
@@ -45,13 +49,53 @@ Measured measure_with_error(const SlopeCriterion& criterion, const Tin& tin, Ver
     return {value, kRelativeError * value + slope_error * (2 * std::sqrt(value) + slope_error)};
 }
 
+/// The ends of the edges crossed on one side of the view, the anchor before them, and what is known of the
+/// polygons that they make.
+class Chain {
+  public:
+    /// `mirror`: -1 for the chain to the left, which is turned over to be counter-clockwise.
+    Chain(const Tin& tin, double mirror, const RingMeasure& measure)
+        : tin_(tin), mirror_(mirror), table_(measure) {}
+
+    [[nodiscard]] std::size_t size() const { return vertices_.size(); }
+    [[nodiscard]] VertexId operator[](std::uint32_t i) const { return vertices_[i]; }
+    void push_back(VertexId v) {
+        const Key2 key = tin_.key(v);
+        vertices_.push_back(v);
+        table_.push_back({mirror_ * key.x, key.y});
+    }
+    void truncate(std::size_t size) {
+        vertices_.resize(size);
+        table_.truncate(size);
+    }
+    /// Whether the polygon between the chain and the line back from its end to its start can be filled.
+    [[nodiscard]] bool can_be_filled(const Progress& progress) {
+        return table_.cost(0, static_cast<std::uint32_t>(size() - 1), progress) < 0;
+    }
+
+  private:
+    const Tin& tin_;
+    double mirror_;
+    std::vector<VertexId> vertices_;
+    PolygonTable table_;
+};
+
 /// Looks from the anchor of a face through the opposite edge, and tries an edge to every vertex in sight.
 /// Letters as in [tan1993, Fig. 3.1]: q anchor, s apex.
 template <FaceCriterion C>
 class Certifier {
   public:
     Certifier(const Tin& tin, const C& criterion, const Progress& progress)
-        : tin_(tin), criterion_(criterion), progress_(progress) {}
+        : tin_(tin),
+          criterion_(criterion),
+          progress_(progress),
+          rights_(tin, 1,
+                  [this](auto i, auto k, auto j) {
+                      return is_better(rights_[i], rights_[k], rights_[j]) ? -kInfinity : kInfinity;
+                  }),
+          lefts_(tin, -1, [this](auto i, auto k, auto j) {
+              return is_better(lefts_[j], lefts_[k], lefts_[i]) ? -kInfinity : kInfinity;
+          }) {}
 
     Certificate certify(std::optional<std::size_t> count);
 
@@ -72,12 +116,14 @@ class Certifier {
     bool look_from(FaceId face, unsigned corner);
     [[nodiscard]] bool is_open(HalfEdgeId h) const;
     void go_on(const View& view, VertexId q, VertexId s);
-    bool is_improved_by(FaceId face, VertexId q, VertexId s);
-    [[nodiscard]] std::optional<double> fill(std::span<const VertexId> ring);
+    [[nodiscard]] bool is_better(VertexId a, VertexId b, VertexId c) const;
+    bool is_improved_by(VertexId s);
+    [[nodiscard]] double fill(std::span<const VertexId> ring) const;
+    [[nodiscard]] Improvement make_improvement(FaceId face, VertexId s) const;
     [[nodiscard]] int side(VertexId from, VertexId to, VertexId v) const {
         return orient2d(tin_.key(from), tin_.key(to), tin_.key(v));
     }
-    void poll();
+    bool poll();
 
     const Tin& tin_;
     const C& criterion_;
@@ -88,12 +134,10 @@ class Certifier {
     double wanted_ = 0;            ///< what new faces have to stay below for certain
     double done_ = 0;              ///< fraction
     std::uint32_t steps_ = 0;
-    // The ends of the edges crossed, to the right and to the left of the view, nearest first.
-    std::vector<VertexId> rights_;
-    std::vector<VertexId> lefts_;
-    std::vector<View> views_;     // stack
-    std::vector<VertexId> ring_;  // scratch
-    std::vector<Key2> ring_keys_;
+    Chain rights_;
+    Chain lefts_;
+    std::vector<View> views_;  // stack
+    Progress poll_ = [this](double) { return poll(); };
 };
 
 template <FaceCriterion C>
@@ -102,7 +146,7 @@ Certificate Certifier<C>::certify(std::optional<std::size_t> count) {
     const std::vector<FaceId> faces = worst_faces(count);
     for (std::size_t i = 0; i < faces.size(); ++i) {
         done_ = static_cast<double>(i) / static_cast<double>(faces.size());
-        poll();
+        report_progress(progress_, done_);
         examine(faces[i]);
     }
     certificate_.faces = faces.size();
@@ -170,16 +214,19 @@ template <FaceCriterion C>
 bool Certifier<C>::look_from(FaceId face, unsigned corner) {
     const HalfEdgeId opposite = half_edge(face, next_corner(corner));
     const VertexId q = tin_.mesh.vertex(face, corner);
-    rights_.assign(1, tin_.mesh.origin(opposite));
-    lefts_.clear();
-    const VertexId left = tin_.mesh.destination(opposite);
-    views_.assign(1, {opposite, rights_.front(), left, false, 1, 0});
+    const VertexId right = tin_.mesh.origin(opposite);
+    rights_.truncate(0);
+    rights_.push_back(q);
+    rights_.push_back(right);
+    lefts_.truncate(0);
+    lefts_.push_back(q);
+    views_.assign(1, {opposite, right, tin_.mesh.destination(opposite), false, 2, 1});
     while (!views_.empty()) {
-        poll();
+        report_progress(poll_, done_);
         const View view = views_.back();
         views_.pop_back();
-        rights_.resize(view.rights);
-        lefts_.resize(view.lefts);
+        rights_.truncate(view.rights);
+        lefts_.truncate(view.lefts);
         if (view.is_right_moved) {
             rights_.push_back(tin_.mesh.origin(view.edge));
         } else {
@@ -189,7 +236,8 @@ bool Certifier<C>::look_from(FaceId face, unsigned corner) {
             continue;
         }
         const VertexId s = tin_.mesh.origin(previous(tin_.mesh.twin(view.edge)));
-        if (side(q, view.right, s) > 0 && side(q, view.left, s) < 0 && is_improved_by(face, q, s)) {
+        if (side(q, view.right, s) > 0 && side(q, view.left, s) < 0 && is_improved_by(s)) {
+            certificate_.improvements.push_back(make_improvement(face, s));
             return true;
         }
         go_on(view, q, s);
@@ -215,55 +263,61 @@ void Certifier<C>::go_on(const View& view, VertexId q, VertexId s) {
     }
 }
 
+/// Whether a new face is better than the one examined, for certain.
 template <FaceCriterion C>
-bool Certifier<C>::is_improved_by(FaceId face, VertexId q, VertexId s) {
-    ++certificate_.edges;
-    // Counter-clockwise, and so that the edge closes the ring.
-    ring_.assign(1, q);
-    ring_.insert(ring_.end(), rights_.begin(), rights_.end());
-    ring_.push_back(s);
-    const std::optional<double> right = fill(ring_);
-    if (!right) {
-        return false;
-    }
-    ring_.assign(1, s);
-    ring_.insert(ring_.end(), lefts_.rbegin(), lefts_.rend());
-    ring_.push_back(q);
-    const std::optional<double> left = fill(ring_);
-    if (!left) {
-        return false;
-    }
-    certificate_.improvements.push_back(
-        {face, q, s, criterion_.to_report(limit_), criterion_.to_report(std::max(*right, *left))});
-    return true;
+bool Certifier<C>::is_better(VertexId a, VertexId b, VertexId c) const {
+    const Measured measured = measure_with_error(criterion_, tin_, a, b, c);
+    return measured.value + measured.error < wanted_;
 }
 
-/// The least maximum of faces that are all better than the one examined.
+/// Whether both sides of the edge to `s` can be filled with better faces.
 template <FaceCriterion C>
-std::optional<double> Certifier<C>::fill(std::span<const VertexId> ring) {
-    ring_keys_.clear();
+bool Certifier<C>::is_improved_by(VertexId s) {
+    ++certificate_.edges;
+    rights_.push_back(s);
+    lefts_.push_back(s);
+    const bool is_improved = rights_.can_be_filled(poll_) && lefts_.can_be_filled(poll_);
+    rights_.truncate(rights_.size() - 1);
+    lefts_.truncate(lefts_.size() - 1);
+    return is_improved;
+}
+
+template <FaceCriterion C>
+Improvement Certifier<C>::make_improvement(FaceId face, VertexId s) const {
+    std::vector<VertexId> right;
+    for (std::uint32_t i = 0; i < rights_.size(); ++i) {
+        right.push_back(rights_[i]);
+    }
+    right.push_back(s);
+    std::vector<VertexId> left{s};
+    for (auto i = static_cast<std::uint32_t>(lefts_.size()); i-- > 0;) {
+        left.push_back(lefts_[i]);
+    }
+    const double improved = std::max(fill(right), fill(left));
+    return {face, rights_[0], s, criterion_.to_report(limit_), criterion_.to_report(improved)};
+}
+
+/// The least maximum of faces that are all better than the one examined; the ring is counter-clockwise.
+template <FaceCriterion C>
+double Certifier<C>::fill(std::span<const VertexId> ring) const {
+    std::vector<Key2> keys;
     for (const VertexId v : ring) {
-        ring_keys_.push_back(tin_.key(v));
+        keys.push_back(tin_.key(v));
     }
-    const auto measure = [&](std::uint32_t i, std::uint32_t k, std::uint32_t j) {
-        const Measured measured = measure_with_error(criterion_, tin_, ring[i], ring[k], ring[j]);
-        return measured.value + measured.error < wanted_ ? measured.value
-                                                         : std::numeric_limits<double>::infinity();
-    };
-    Progress progress;
-    if (progress_) {
-        progress = [this](double) { return progress_(done_); };
-    }
-    const auto filled = triangulate_polygon(ring_keys_, measure, PolygonCost::Maximum, progress);
-    return filled ? std::optional(filled->cost) : std::nullopt;
+    const auto filled = triangulate_polygon(
+        keys,
+        [&](std::uint32_t i, std::uint32_t k, std::uint32_t j) {
+            return is_better(ring[i], ring[k], ring[j]) ? criterion_.measure(ring[i], ring[k], ring[j])
+                                                        : kInfinity;
+        },
+        PolygonCost::Maximum, poll_);
+    return filled->cost;
 }
 
 /// Often enough to be stopped, seldom enough to cost nothing.
 template <FaceCriterion C>
-void Certifier<C>::poll() {
-    if ((++steps_ & 0xFFFU) == 0) {
-        report_progress(progress_, done_);
-    }
+bool Certifier<C>::poll() {
+    return (++steps_ & 0xFFFU) != 0 || !progress_ || progress_(done_);
 }
 
 }  // namespace
