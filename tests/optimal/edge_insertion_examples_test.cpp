@@ -42,7 +42,7 @@ std::vector<std::array<std::uint32_t, 3>> faces_by_site(const Tin& tin, const Si
 }
 
 double measure(Criterion criterion, const Sites& sites, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-    return report_of(criterion, oracle::badness(criterion, sites[a], sites[b], sites[c]));
+    return static_cast<double>(oracle::badness(criterion, sites[a], sites[b], sites[c]));
 }
 
 /// The pentagon a b c d e of Figure 4.1 with the diagonals b e and b d.

@@ -39,7 +39,7 @@ Tin general_tin(std::uint64_t seed) {
 
 void check_report(const OptimizeReport& report, const Tin& before, const Tin& after, Criterion criterion) {
     const auto worst = [criterion](const Tin& tin) {
-        return report_of(criterion, badnesses_of(tin, criterion, Faces::Terrain).front());
+        return report_of(tin, criterion, badnesses_of(tin, criterion, Faces::Terrain).front());
     };
     REQUIRE(are_close(report.before.all, worst(before)));
     REQUIRE(are_close(report.after.all, worst(after)));
@@ -149,7 +149,7 @@ TEST_SUITE("optimal/edge_insertion") {
                     CAPTURE(is_top);
                     Tin tin = start;
                     const Scope scope = is_top ? Scope{Scope::Kind::Top, percent}
-                                               : Scope{Scope::Kind::Above, report_of(criterion, stop)};
+                                               : Scope{Scope::Kind::Above, report_of(start, criterion, stop)};
                     const OptimizeReport report = optimize_to(scope, criterion, tin);
                     const auto after = badnesses_of(tin, criterion, Faces::All);
                     const auto after_terrain = badnesses_of(tin, criterion, Faces::Terrain);
@@ -184,7 +184,7 @@ TEST_SUITE("optimal/edge_insertion") {
                                              : std::min(worst * (1 + 1e-6L) + 1e-6L, most);
                 Tin tin = start;
                 const OptimizeReport report =
-                    optimize_to({Scope::Kind::Above, report_of(criterion, stop)}, criterion, tin);
+                    optimize_to({Scope::Kind::Above, report_of(start, criterion, stop)}, criterion, tin);
                 REQUIRE(report.tries == 0);
                 REQUIRE(report.proof == Proof::None);
                 REQUIRE(terrain_of(tin.mesh) == terrain_of(start.mesh));

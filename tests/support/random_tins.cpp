@@ -278,8 +278,18 @@ std::vector<long double> badnesses_of(const Tin& tin, Criterion criterion, Faces
     return vector;
 }
 
-double report_of(Criterion criterion, long double badness) {
-    return static_cast<double>(criterion == Criterion::Height ? -badness : badness);
+double report_of(const Tin& tin, Criterion criterion, long double badness) {
+    const auto number = static_cast<double>(criterion == Criterion::Height ? -badness : badness);
+    switch (criterion) {
+        case Criterion::Height:
+        case Criterion::Eccentricity:
+            return number * tin.lattice.quantum();
+        case Criterion::Slope:
+            return number / tin.lattice.quantum();
+        case Criterion::Angle:
+            break;
+    }
+    return number;
 }
 
 bool are_close(long double a, long double b) {

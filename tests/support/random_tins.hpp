@@ -12,7 +12,7 @@
 #include "support/point_sets.hpp"
 #include "support/triangulation_oracle.hpp"
 
-/// Small seeded TINs to be optimised, and what the oracles have to know of them. Keys count CRS units.
+/// Small seeded TINs to be optimised, and what the oracles have to know of them.
 namespace tinwright_tests {
 
 /// A kind of TIN; `make` gives the Delaunay TIN of about `count` vertices, or one without faces.
@@ -48,8 +48,8 @@ oracle::Site site_of(const tinwright::Tin& tin, tinwright::VertexId v);
 /// Sorted badnesses, worst first, of the terrain faces or of all but ghosts.
 enum class Faces { Terrain, All };
 std::vector<long double> badnesses_of(const tinwright::Tin& tin, tinwright::Criterion criterion, Faces which);
-/// The number that a report should give for a badness.
-double report_of(tinwright::Criterion criterion, long double badness);
+/// The number in CRS units that a report should give for a badness.
+double report_of(const tinwright::Tin& tin, tinwright::Criterion criterion, long double badness);
 
 /// Whether two numbers agree to 1e-9 of the larger.
 bool are_close(long double a, long double b);
