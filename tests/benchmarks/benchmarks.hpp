@@ -12,6 +12,7 @@ struct Settings {
     double scale = 1;       ///< of the numbers of points and cells; below 1 for a quick look
     std::string scratch;    ///< folder for large files
     std::string tinwright;  ///< the command that is measured
+    std::string images;     ///< folder for pictures; empty: none are made
 
     [[nodiscard]] std::size_t count(double full) const;
     /// Columns or rows of a raster, or of a grid of points: their product scales.
@@ -22,6 +23,10 @@ void run_delaunay(const Settings& settings);
 void run_raster(const Settings& settings);
 void run_job(const Settings& settings);
 void run_read(const Settings& settings);
+/// Ratios to our own Delaunay, growth up to 10^6 points with its picture, and the hardest point sets.
+void run_criteria(const Settings& settings);
+void run_criteria_growth(const Settings& settings);
+void run_criteria_worst(const Settings& settings);
 
 }  // namespace tinwright_benchmarks
 

@@ -32,12 +32,17 @@ struct Benchmark {
     void (*run)(const Settings& settings);
 };
 
-constexpr std::array kBenchmarks{Benchmark{"delaunay", run_delaunay}, Benchmark{"raster", run_raster},
-                                 Benchmark{"job", run_job}, Benchmark{"read", run_read}};
+constexpr std::array kBenchmarks{Benchmark{"delaunay", run_delaunay},
+                                 Benchmark{"raster", run_raster},
+                                 Benchmark{"job", run_job},
+                                 Benchmark{"read", run_read},
+                                 Benchmark{"criteria", run_criteria},
+                                 Benchmark{"criteria_growth", run_criteria_growth},
+                                 Benchmark{"criteria_worst", run_criteria_worst}};
 
 constexpr const char* kUsage =
-    "usage: tinwright_benchmarks delaunay|raster|job|read [--rounds K] [--scale FRACTION] [--tinwright "
-    "COMMAND]\n"
+    "usage: tinwright_benchmarks delaunay|raster|job|read|criteria|criteria_growth|criteria_worst\n"
+    "           [--rounds K] [--scale FRACTION] [--tinwright COMMAND] [--images FOLDER]\n"
     "Prints a table of docs/benchmarks.md. Medians of K interleaved runs (default 5).\n";
 
 double positive(const std::string& text) {
@@ -100,6 +105,8 @@ int run(const std::vector<std::string>& arguments) {
             settings.scale = positive(arguments[++i]);
         } else if (arguments[i] == "--tinwright" && has_value) {
             settings.tinwright = arguments[++i];
+        } else if (arguments[i] == "--images" && has_value) {
+            settings.images = arguments[++i];
         } else {
             for (const Benchmark& benchmark : kBenchmarks) {
                 chosen = arguments[i] == benchmark.name ? &benchmark : chosen;

@@ -6,9 +6,7 @@
 
 namespace tinwright_benchmarks {
 
-namespace {
-
-std::string target_text(const Target& target, const std::string& unit) {
+std::string to_text(const Target& target, const std::string& unit) {
     std::array<char, 32> text{};
     std::snprintf(text.data(), text.size(), "%g", target.value);
     return (target.kind == Target::Kind::AtMost ? "at most " : "at least ") + std::string(text.data()) + unit;
@@ -17,8 +15,6 @@ std::string target_text(const Target& target, const std::string& unit) {
 bool is_met(const Target& target, double figure) {
     return target.kind == Target::Kind::AtMost ? figure <= target.value : figure >= target.value;
 }
-
-}  // namespace
 
 std::string number(double value) {
     std::array<char, 64> text{};
@@ -45,7 +41,7 @@ void ResultTable::add(const std::string& what, const std::string& ours, const st
     }
     std::printf("| %s | %s | %s | %s | %s | %s |\n", what.c_str(), ours.c_str(), other.c_str(),
                 figure ? (number(*figure) + unit).c_str() : "not measured",
-                target ? target_text(*target, unit).c_str() : "", verdict.c_str());
+                target ? to_text(*target, unit).c_str() : "", verdict.c_str());
     std::fflush(stdout);
 }
 

@@ -17,6 +17,10 @@ struct Target {
 inline std::optional<Target> at_most(double value) { return Target{Target::Kind::AtMost, value}; }
 inline std::optional<Target> at_least(double value) { return Target{Target::Kind::AtLeast, value}; }
 
+/// "at most 2 bytes".
+std::string to_text(const Target& target, const std::string& unit = "");
+bool is_met(const Target& target, double figure);
+
 /// Three significant digits.
 std::string number(double value);
 /// The same with its unit.

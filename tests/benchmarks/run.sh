@@ -1,7 +1,9 @@
 #!/usr/bin/env bash
 # Builds the benchmarks, runs them and puts their tables in docs/benchmarks.md.
-#   bash tests/benchmarks/run.sh [TABLE...]        tables: delaunay raster read job (default: all)
-# ROUNDS=k changes the number of interleaved runs of which the median is taken (default 5).
+#   bash tests/benchmarks/run.sh [TABLE...]        tables: delaunay raster read job criteria
+#                                                 criteria_growth criteria_worst (default: all)
+# ROUNDS=k changes the number of interleaved runs of which the median is taken (default 5). SCALE=f takes that part
+# of the points for a quick look. BUILD=folder holds the build.
 # CGAL and gdal_grid are what is compared with: on Debian, `apt-get install libcgal-dev gdal-bin`.
 set -euo pipefail
 
@@ -9,9 +11,10 @@ root=$(cd "$(dirname "$0")/../.." && pwd)
 build=${BUILD:-$root/build/benchmarks}
 page=$root/docs/benchmarks.md
 rounds=${ROUNDS:-5}
+scale=${SCALE:-1}
 tables=("$@")
 if [ ${#tables[@]} -eq 0 ]; then
-    tables=(delaunay raster read job)
+    tables=(delaunay raster read job criteria criteria_growth criteria_worst)
 fi
 
 cmake -S "$root" -B "$build" -DCMAKE_BUILD_TYPE=Release -DTINWRIGHT_BUILD_BENCHMARKS=ON
@@ -25,7 +28,8 @@ for table in "${tables[@]}"; do
         exit 2
     fi
     read -r load _ < /proc/loadavg
-    "$build/tests/benchmarks/tinwright_benchmarks" "$table" --rounds "$rounds" | tee "$result"
+    "$build/tests/benchmarks/tinwright_benchmarks" "$table" --rounds "$rounds" --scale "$scale" \
+        --images "$root/docs/images" | tee "$result"
     printf '\nRounds: %s. Load average of the machine just before: %s.\n' "$rounds" "$load" >> "$result"
     # The lines from the table's mark to the end mark are replaced.
     awk -v table="$table" -v result="$result" '
