@@ -26,7 +26,7 @@ class AngleCriterion {
     [[nodiscard]] double measure(VertexId a, VertexId b, VertexId c) const {
         const internal::LargestAngle angle =
             internal::find_largest_angle(keys_[a.value], keys_[b.value], keys_[c.value]);
-        return -angle.inner / angle.doubled_area;
+        return (0.0 - angle.inner) / angle.doubled_area;  // never a negative zero
     }
 
     /// A triangulation without obtuse faces is optimal, so only obtuse ones have an anchor.
