@@ -9,14 +9,12 @@
 #include <string>
 #include <vector>
 
-#include <boost/multiprecision/cpp_int.hpp>
 #include <doctest/doctest.h>
 
 #include "tinwright/criteria/visit_criterion.hpp"
 
+#include "faces.hpp"
 #include "support/cases.hpp"
-#include "support/oracles.hpp"
-#include "support/point_sets.hpp"
 #include "support/tins.hpp"
 
 using namespace tinwright;
@@ -24,26 +22,8 @@ using namespace tinwright_tests;
 
 namespace {
 
-using boost::multiprecision::cpp_rational;
-
 /// What a measure may err by, relatively; the engine takes measures for equal that differ by twice that.
 constexpr double kError = 0x1p-45;
-
-struct Corner {
-    Key2 key;
-    double z = 0;
-};
-using Face = std::array<Corner, 3>;
-
-/// Three vertices without a mesh, on a lattice of 10^-decimals.
-Tin tin_of_face(const Face& face, int decimals = 0) {
-    Tin tin = tin_of(std::vector<Key2>{face[0].key, face[1].key, face[2].key});
-    tin.lattice = Lattice::decimal(decimals, {0, 0});
-    for (std::size_t i = 0; i < 3; ++i) {
-        tin.z[i] = face[i].z;
-    }
-    return tin;
-}
 
 double raw_measure(Criterion criterion, const Tin& tin, std::array<std::uint32_t, 3> order = {0, 1, 2}) {
     return visit_criterion(criterion, tin, [&](const FaceCriterion auto& code) {
@@ -57,129 +37,6 @@ double reported(Criterion criterion, const Face& face, int decimals = 0) {
         return code.to_report(code.measure({0}, {1}, {2}));
     });
 }
-
-unsigned anchors_of(Criterion criterion, const Face& face) {
-    const Tin tin = tin_of_face(face);
-    return visit_criterion(criterion, tin,
-                           [](const FaceCriterion auto& code) { return code.anchors({0}, {1}, {2}); });
-}
-
-/// Counter-clockwise, or nothing if the corners are collinear.
-bool orient(Face& face) {
-    const int side = oracle::orient2d(face[0].key, face[1].key, face[2].key);
-    if (side < 0) {
-        std::swap(face[1], face[2]);
-    }
-    return side != 0;
-}
-
-/// Faces of any width and shape: from the families of keys, needles, isosceles ones, right angles.
-Face any_face(Random& random) {
-    const auto families = key_families();
-    const auto pick =
-        static_cast<std::size_t>(random.integer(0, static_cast<std::int64_t>(families.size()) + 3));
-    const double limit = std::ldexp(1.0, static_cast<int>(random.integer(4, 43)));
-    const auto any = [&] { return random.key(limit); };
-    Face face{};
-    const double u = any();
-    const double v = any();
-    if (pick < families.size()) {
-        const std::vector<Key2> keys = without_repetitions(families[pick].make(random, 40));
-        for (Corner& corner : face) {
-            corner.key =
-                keys[static_cast<std::size_t>(random.integer(0, static_cast<std::int64_t>(keys.size()) - 1))];
-        }
-    } else if (pick == families.size()) {  // isosceles, about an axis
-        face = {{{{0, v}, 0}, {{2 * u, v}, 0}, {{u, any()}, 0}}};
-    } else if (pick == families.size() + 1) {  // isosceles and right-angled
-        face = {{{{limit, limit}, 0}, {{limit + u, limit + v}, 0}, {{limit - v, limit + u}, 0}}};
-    } else {  // within some keys of a line, or of a right angle
-        const double k = random.key(1024);
-        const bool is_needle = pick == families.size() + 2;
-        const double w = std::floor(limit / 1024);
-        const Key2 step{std::floor(u / 1024), std::floor(v / 1024)};
-        const Key2 turned = is_needle ? step : Key2{-step.y, step.x};
-        const double base = 2 * limit + w;
-        face = {{{{base, base}, 0},
-                 {{base + 512 * step.x, base + 512 * step.y}, 0},
-                 {{base + k * turned.x + random.key(3), base + k * turned.y + random.key(3)}, 0}}};
-    }
-    const int relief = static_cast<int>(random.integer(0, 2));
-    for (Corner& corner : face) {
-        corner.z = relief == 0   ? static_cast<double>(random.integer(0, 3))
-                   : relief == 1 ? 1e4 * random.real()
-                                 : 812.37 + 1e-9 * random.real();
-    }
-    return face;
-}
-
-struct Vector {
-    cpp_rational x;
-    cpp_rational y;
-};
-cpp_rational dot(const Vector& a, const Vector& b) { return a.x * b.x + a.y * b.y; }
-cpp_rational cross(const Vector& a, const Vector& b) { return a.x * b.y - a.y * b.x; }
-
-/// What rational numbers say of a face: the largest angle's corner has the longest edge opposite.
-struct Exact {
-    std::array<Vector, 3> position;
-    std::array<cpp_rational, 3> z;
-    std::size_t corner = 0;
-    cpp_rational longest;
-    cpp_rational inner;
-    cpp_rational area;
-    Vector gradient;
-
-    explicit Exact(const Face& face) {
-        for (std::size_t i = 0; i < 3; ++i) {
-            position[i] = {cpp_rational(face[i].key.x), cpp_rational(face[i].key.y)};
-            z[i] = cpp_rational(face[i].z);
-        }
-        for (std::size_t i = 0; i < 3; ++i) {
-            const Vector opposite = edge((i + 1) % 3, (i + 2) % 3);
-            if (dot(opposite, opposite) > longest) {
-                longest = dot(opposite, opposite);
-                corner = i;
-            }
-        }
-        inner = dot(edge(corner, (corner + 1) % 3), edge(corner, (corner + 2) % 3));
-        area = cross(edge(0, 1), edge(0, 2));
-        const cpp_rational du = z[1] - z[0];
-        const cpp_rational dv = z[2] - z[0];
-        gradient = {(du * edge(0, 2).y - dv * edge(0, 1).y) / area,
-                    (dv * edge(0, 1).x - du * edge(0, 2).x) / area};
-    }
-    [[nodiscard]] Vector edge(std::size_t from, std::size_t to) const {
-        return {position[to].x - position[from].x, position[to].y - position[from].y};
-    }
-    [[nodiscard]] cpp_rational measure(Criterion criterion) const {
-        switch (criterion) {
-            case Criterion::Angle:
-                return -inner / area;
-            case Criterion::Height:
-                return longest / (area * area);
-            case Criterion::Slope:
-                return dot(gradient, gradient);
-            case Criterion::Eccentricity:
-                break;
-        }
-        return inner >= 0 ? cpp_rational(0) : cpp_rational(longest * inner * inner / (area * area));
-    }
-    /// The corners whose line of steepest descent runs through the face; all three if it is level.
-    [[nodiscard]] unsigned descent_corners() const {
-        std::array<cpp_rational, 3> along;  // along a level line
-        for (std::size_t i = 0; i < 3; ++i) {
-            along[i] = cross(gradient, position[i]);
-        }
-        unsigned corners = 0;
-        for (std::size_t i = 0; i < 3; ++i) {
-            const cpp_rational left = along[(i + 1) % 3] - along[i];
-            const cpp_rational right = along[(i + 2) % 3] - along[i];
-            corners |= left * right <= 0 ? 1U << i : 0U;
-        }
-        return corners;
-    }
-};
 
 double number(const cpp_rational& value) { return value.convert_to<double>(); }
 
@@ -311,84 +168,6 @@ TEST_SUITE("criteria/criterion") {
         const Face obtuse{{{{0, 0}, 0}, {{8e12, 0}, 0}, {{4e12, std::round(1e12 * rise)}, 0}}};
         CHECK(reported(Criterion::Angle, obtuse, 12) == doctest::Approx(135).epsilon(1e-11));
         CHECK(reported(Criterion::Eccentricity, obtuse, 12) == doctest::Approx(4).epsilon(1e-11));
-    }
-
-    TEST_CASE(
-        "the obtuse corner is the anchor for angle, height and eccentricity; without one there is none") {
-        int obtuse = 0;
-        int right = 0;
-        for (int seed = 0; seed < cases(6000); ++seed) {
-            CAPTURE(seed);
-            Random random(static_cast<std::uint64_t>(seed));
-            Face face = any_face(random);
-            if (!orient(face)) {
-                continue;
-            }
-            unsigned expected = 0;
-            for (unsigned i = 0; i < 3; ++i) {
-                const int sign =
-                    oracle::angle_sign(face[(i + 1) % 3].key, face[i].key, face[(i + 2) % 3].key);
-                expected |= sign < 0 ? 1U << i : 0U;
-                right += sign == 0 ? 1 : 0;
-            }
-            obtuse += expected != 0 ? 1 : 0;
-            for (const Criterion criterion : {Criterion::Angle, Criterion::Height, Criterion::Eccentricity}) {
-                REQUIRE(anchors_of(criterion, face) == expected);
-            }
-        }
-        CHECK(obtuse > cases(6000) / 4);
-        CHECK(right > cases(6000) / 100);
-    }
-
-    TEST_CASE("slope: the anchor is the corner whose descent line runs through the face") {
-        for (int seed = 0; seed < cases(6000); ++seed) {
-            CAPTURE(seed);
-            Random random(static_cast<std::uint64_t>(seed));
-            Face face = any_face(random);
-            if (!orient(face)) {
-                continue;
-            }
-            const unsigned exact = Exact(face).descent_corners();
-            const unsigned anchors = anchors_of(Criterion::Slope, face);
-            if (std::has_single_bit(exact)) {
-                REQUIRE((anchors & exact) == exact);  // perhaps another in doubt
-            } else {
-                REQUIRE((anchors == 0 || (anchors & exact) == exact));
-            }
-        }
-    }
-
-    TEST_CASE(
-        "slope: small integers leave no doubt: one anchor, none for level faces and for two descent lines") {
-        std::array<int, 4> counts{};
-        for (int seed = 0; seed < cases(10000); ++seed) {
-            CAPTURE(seed);
-            Random random(static_cast<std::uint64_t>(seed));
-            Face face{};
-            const double limit = seed % 2 == 0 ? 5 : 0x1p24;
-            for (Corner& corner : face) {
-                corner = {{random.key(limit), random.key(limit)},
-                          static_cast<double>(random.integer(0, 4)) / 8};
-            }
-            if (!orient(face)) {
-                continue;
-            }
-            const unsigned exact = Exact(face).descent_corners();
-            ++counts[static_cast<std::size_t>(std::popcount(exact))];
-            REQUIRE(anchors_of(Criterion::Slope, face) == (std::has_single_bit(exact) ? exact : 0U));
-        }
-        CHECK(counts[0] == 0);
-        CHECK(counts[1] > 0);
-        CHECK(counts[2] > 0);
-        CHECK(counts[3] > 0);
-        // The gradient along the edge from corner 0 to corner 1, in all turns of the corners.
-        Face face{{{{0, 0}, 0}, {{2, 0}, 2}, {{1, 1}, 1}}};
-        for (int turn = 0; turn < 3; ++turn) {
-            CHECK(anchors_of(Criterion::Slope, face) == 0);
-            std::rotate(face.begin(), face.begin() + 1, face.end());
-        }
-        face[0].z += 0.001;
-        CHECK(std::popcount(anchors_of(Criterion::Slope, face)) == 1);
     }
 
     TEST_CASE("reports can be turned back into measures, and keep their order") {
