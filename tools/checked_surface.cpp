@@ -77,6 +77,9 @@ std::string violation_lines(const CheckedSurface& surface) {
     if (unlisted > 0) {
         lines += surface.file + ": and " + std::to_string(unlisted) + " more of these kinds\n";
     }
+    if (surface.optimality) {
+        lines += improvable_lines(*surface.optimality, surface.file);
+    }
     return lines;
 }
 
@@ -89,9 +92,11 @@ std::string verdict_line(const CheckedSurface& surface) {
                        : std::to_string(count) + (count == 1 ? " violation in " : " violations in ") + faces);
 }
 
-JsonValue checked_json(std::span<const CheckedSurface> surfaces, const std::vector<std::string>& outputs) {
+JsonValue checked_json(std::span<const CheckedSurface> surfaces, bool is_proving,
+                       const std::vector<std::string>& outputs) {
     JsonValue list = JsonValue::array();
     std::size_t total = 0;
+    std::size_t improvable = 0;
     for (const CheckedSurface& surface : surfaces) {
         JsonValue counts = JsonValue::object();
         for (std::size_t i = 0; i < kFaceDefects; ++i) {
@@ -102,17 +107,26 @@ JsonValue checked_json(std::span<const CheckedSurface> surfaces, const std::vect
             violations.append(violation_json(surface, violation));
         }
         total += surface.violation_count();
-        list.append(JsonValue::object()
-                        .set("file", surface.file)
-                        .set("layer", surface.layer)
-                        .set("vertices", surface.vertices)
-                        .set("faces", surface.face_ids.size())
-                        .set("counts", counts)
-                        .set("violations", violations));
+        improvable += surface.improvable();
+        JsonValue entry = JsonValue::object();
+        entry.set("file", surface.file)
+            .set("layer", surface.layer)
+            .set("vertices", surface.vertices)
+            .set("faces", surface.face_ids.size())
+            .set("counts", counts)
+            .set("violations", violations);
+        if (surface.optimality) {
+            entry.set("optimality", optimality_json(*surface.optimality));
+        }
+        list.append(entry);
     }
     JsonValue json = JsonValue::object();
     json.set("version", TINWRIGHT_VERSION).set("command", "check").set("clean", total == 0);
-    return json.set("violations", total).set("surfaces", list).set("outputs", JsonValue::array_of(outputs));
+    json.set("violations", total);
+    if (is_proving) {
+        json.set("improvable", improvable);
+    }
+    return json.set("surfaces", list).set("outputs", JsonValue::array_of(outputs));
 }
 
 void check_violation_target(const std::string& target, const ViolationLayerOptions& options) {
@@ -133,22 +147,33 @@ void write_violations(std::span<const CheckedSurface> surfaces, const std::strin
     io::TinDataset dataset(driver, output.path(), target, crs, write_options);
     io::TinLayer layer = dataset.add_layer("violations", wkbPoint25D, kFields, Tin{});
     int number = 0;
+    const auto write = [&](const std::string& kind, std::int64_t face, std::optional<std::int64_t> other,
+                           const Point3& location) {
+        layer.set(0, number);
+        layer.set(1, kind);
+        layer.set(2, face);
+        if (other) {
+            layer.set(3, *other);
+        } else {
+            layer.set_null(3);
+        }
+        auto& point = layer.geometry<OGRPoint>();
+        point.setX(location.x);
+        point.setY(location.y);
+        point.setZ(location.z);
+        layer.write();
+    };
     for (const CheckedSurface& surface : surfaces) {
         ++number;
         for (const FaceViolation& violation : surface.report.violations) {
-            layer.set(0, number);
-            layer.set(1, key_of(violation.defect));
-            layer.set(2, surface.face_ids[violation.face]);
-            if (violation.other == FaceViolation::kNoFace) {
-                layer.set_null(3);
-            } else {
-                layer.set(3, surface.face_ids[violation.other]);
-            }
-            auto& point = layer.geometry<OGRPoint>();
-            point.setX(violation.location.x);
-            point.setY(violation.location.y);
-            point.setZ(violation.location.z);
-            layer.write();
+            const bool has_other = violation.other != FaceViolation::kNoFace;
+            write(key_of(violation.defect), surface.face_ids[violation.face],
+                  has_other ? std::optional(surface.face_ids[violation.other]) : std::nullopt,
+                  violation.location);
+        }
+        for (std::size_t i = 0; surface.optimality && i < surface.optimality->listed.size(); ++i) {
+            const ImprovableFace& face = surface.optimality->listed[i];
+            write("improvable", face.face, std::nullopt, face.from);
         }
     }
     dataset.close();

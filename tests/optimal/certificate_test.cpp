@@ -18,7 +18,7 @@ using namespace tinwright;
 using namespace tinwright_tests;
 
 Certificate certify_all(const Tin& tin, Criterion criterion) {
-    return certify(tin, {.criterion = criterion, .faces = {}, .progress = {}});
+    return certify(tin, {.criterion = criterion, .faces = {}, .reach = {}, .progress = {}});
 }
 
 /// A kite cut along its long diagonal: both faces are obtuse, the lower one (0) more than the upper one (1).
@@ -180,7 +180,7 @@ TEST_SUITE("optimal/certificate") {
 
                 optimize_to(kMaxScope, criterion, other);
                 const Certificate worst =
-                    certify(other, {.criterion = criterion, .faces = 1, .progress = {}});
+                    certify(other, {.criterion = criterion, .faces = 1, .reach = {}, .progress = {}});
                 CHECK(worst.faces == 1);
                 CHECK(worst.improvements.empty());
                 CHECK(worst.worst.all == certificate.worst.all);
@@ -207,6 +207,33 @@ TEST_SUITE("optimal/certificate") {
                 CHECK(certificate.edges == count_edges(tin, criterion));
             }
         }
+    }
+
+    TEST_CASE("edges beyond the reach are not tried, and that is told") {
+        const Tin tin = kite();
+        const auto reach_to = [&tin](std::size_t reach) {
+            return certify(tin, {.criterion = Criterion::Angle, .faces = {}, .reach = reach, .progress = {}});
+        };
+        CHECK(reach_to(2).improvements.size() == 1);
+        CHECK(reach_to(2).cut == 0);
+        CHECK(reach_to(1).improvements.empty());
+        CHECK(reach_to(1).edges == 0);
+        CHECK(reach_to(1).cut == 1);
+
+        Random random(5);
+        Tin optimal = general_families().front().make(random, 200);
+        optimize_to(kVectorScope, Criterion::Height, optimal);
+        const Certificate all = certify_all(optimal, Criterion::Height);
+        CHECK(all.cut == 0);
+        std::size_t edges = 0;
+        for (const std::size_t reach : {1U, 2U, 4U, 8U, 16U, 400U}) {
+            const Certificate some = certify(
+                optimal, {.criterion = Criterion::Height, .faces = {}, .reach = reach, .progress = {}});
+            CHECK(some.edges >= edges);
+            CHECK((some.cut == 0) == (some.edges == all.edges));
+            edges = some.edges;
+        }
+        CHECK(edges == all.edges);
     }
 
     TEST_CASE("faces without an anchor are counted and not tried") {
@@ -240,7 +267,8 @@ TEST_SUITE("optimal/certificate") {
         Tin tin = general_families().front().make(random, 100);
         flip_at_random(random, tin, 60);
         const Certificate all = certify_all(tin, Criterion::Slope);
-        const Certificate some = certify(tin, {.criterion = Criterion::Slope, .faces = 50, .progress = {}});
+        const Certificate some =
+            certify(tin, {.criterion = Criterion::Slope, .faces = 50, .reach = {}, .progress = {}});
         CHECK(some.faces == 50);
         REQUIRE(some.improvements.size() > 5);
         REQUIRE(some.improvements.size() <= all.improvements.size());
@@ -250,25 +278,27 @@ TEST_SUITE("optimal/certificate") {
             CHECK((i == 0 || some.improvements[i].measure <= some.improvements[i - 1].measure));
         }
         const Certificate most =
-            certify(tin, {.criterion = Criterion::Slope, .faces = 100000, .progress = {}});
+            certify(tin, {.criterion = Criterion::Slope, .faces = 100000, .reach = {}, .progress = {}});
         CHECK(most.faces == tin.mesh.count_terrain());
-        CHECK(certify(tin, {.criterion = Criterion::Slope, .faces = 0, .progress = {}}).faces == 0);
+        CHECK(certify(tin, {.criterion = Criterion::Slope, .faces = 0, .reach = {}, .progress = {}}).faces ==
+              0);
     }
 
     TEST_CASE("it shows progress and can be stopped") {
         Random random(8);
         const Tin tin = general_families().front().make(random, 50);
         double last = -1;
-        static_cast<void>(
-            certify(tin, {.criterion = Criterion::Angle, .faces = {}, .progress = [&](double done) {
-                              CHECK(done >= last);
-                              last = done;
-                              return true;
-                          }}));
+        static_cast<void>(certify(
+            tin, {.criterion = Criterion::Angle, .faces = {}, .reach = {}, .progress = [&](double done) {
+                      CHECK(done >= last);
+                      last = done;
+                      return true;
+                  }}));
         CHECK(last == 1);
-        CHECK_THROWS_AS(
-            static_cast<void>(certify(
-                tin, {.criterion = Criterion::Angle, .faces = {}, .progress = [](double) { return false; }})),
-            Cancelled);
+        CHECK_THROWS_AS(static_cast<void>(certify(tin, {.criterion = Criterion::Angle,
+                                                        .faces = {},
+                                                        .reach = {},
+                                                        .progress = [](double) { return false; }})),
+                        Cancelled);
     }
 }

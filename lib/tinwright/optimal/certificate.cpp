@@ -85,10 +85,11 @@ class Chain {
 template <FaceCriterion C>
 class Certifier {
   public:
-    Certifier(const Tin& tin, const C& criterion, const Progress& progress)
+    Certifier(const Tin& tin, const C& criterion, const CertificateOptions& options)
         : tin_(tin),
           criterion_(criterion),
-          progress_(progress),
+          progress_(options.progress),
+          reach_(options.reach.value_or(std::numeric_limits<std::size_t>::max())),
           rights_(tin, 1,
                   [this](auto i, auto k, auto j) {
                       return is_better(rights_[i], rights_[k], rights_[j]) ? -kInfinity : kInfinity;
@@ -128,6 +129,7 @@ class Certifier {
     const Tin& tin_;
     const C& criterion_;
     const Progress& progress_;
+    std::size_t reach_;
     Certificate certificate_;
     std::vector<double> measure_;  ///< of each slot that is terrain
     double limit_ = 0;             ///< faces worse than this are obstacles
@@ -235,6 +237,11 @@ bool Certifier<C>::look_from(FaceId face, unsigned corner) {
         if (!is_open(view.edge)) {
             continue;
         }
+        // An edge crosses one face more than edges, which have one end more than there are of them.
+        if (rights_.size() + lefts_.size() - 2 > reach_) {
+            ++certificate_.cut;
+            continue;
+        }
         const VertexId s = tin_.mesh.origin(previous(tin_.mesh.twin(view.edge)));
         if (side(q, view.right, s) > 0 && side(q, view.left, s) < 0 && is_improved_by(s)) {
             certificate_.improvements.push_back(make_improvement(face, s));
@@ -324,7 +331,7 @@ bool Certifier<C>::poll() {
 
 Certificate certify(const Tin& tin, const CertificateOptions& options) {
     Certificate certificate = visit_criterion(options.criterion, tin, [&](const auto& criterion) {
-        return Certifier(tin, criterion, options.progress).certify(options.faces);
+        return Certifier(tin, criterion, options).certify(options.faces);
     });
     certificate.worst = find_worst(tin, options.criterion);
     return certificate;

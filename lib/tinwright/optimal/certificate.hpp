@@ -15,7 +15,9 @@ namespace tinwright {
 struct CertificateOptions {
     Criterion criterion = Criterion::Slope;
     std::optional<std::size_t> faces = 100;  ///< how many of the worst to examine; empty: all
-    Progress progress;                       ///< throws Cancelled when it says stop
+    /// Edges that cross more faces than this are not tried; empty: all edges are.
+    std::optional<std::size_t> reach;
+    Progress progress;  ///< throws Cancelled when it says stop
 };
 
 /// An edge whose insertion would improve a face.
@@ -32,6 +34,7 @@ struct Certificate {
     std::size_t faces = 0;       ///< examined
     std::size_t anchorless = 0;  ///< of these, faces without an anchor, for which there is nothing to try
     std::size_t edges = 0;       ///< edges tried
+    std::size_t cut = 0;         ///< views that go on beyond the reach, where nothing was tried
     WorstMeasures worst;
     std::vector<Improvement> improvements;  ///< worst face first, at most one a face; none: optimal
 };
@@ -46,9 +49,9 @@ struct Certificate {
 /// of its error, has to be better than the old one at the lower end of its own.
 ///
 /// `tin`: at least one terrain face.
-/// Cost: a face costs the number of vertices in sight times at worst the cube of the number of faces that an
-/// edge crosses, but most long edges end at once: no face fits on them. 8 bytes a face of scratch, and 8
-/// times the square of the faces crossed.
+/// Cost: of a face, the number of vertices in sight times the square of the number of faces that an edge
+/// crosses, at worst its cube. Where no worse face blocks the view that is quadratic in the size of the TIN,
+/// and linear with a reach. 8 bytes a face of scratch, and 16 times the square of the faces crossed.
 Certificate certify(const Tin& tin, const CertificateOptions& options);
 
 }  // namespace tinwright

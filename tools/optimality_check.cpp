@@ -1,0 +1,225 @@
+#include "optimality_check.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <string_view>
+
+#include "tinwright/geometry/decimal.hpp"
+#include "tinwright/geometry/error.hpp"
+#include "tinwright/io/gdal_session.hpp"
+
+#include "criterion_report.hpp"
+#include "option_values.hpp"
+
+namespace tinwright::tools {
+
+namespace {
+
+constexpr std::size_t kUsualFaces = 100;
+constexpr std::size_t kUsualReach = 100;
+
+constexpr auto kCriterionChoices =
+    std::to_array<std::pair<std::string_view, Criterion>>({{"slope", Criterion::Slope},
+                                                           {"height", Criterion::Height},
+                                                           {"angle", Criterion::Angle},
+                                                           {"eccentricity", Criterion::Eccentricity}});
+
+std::string counted(std::size_t count, const std::string& singular) {
+    return std::to_string(count) + " " + singular + (count == 1 ? "" : "s");
+}
+
+std::string measure_text(Criterion criterion, double value) {
+    std::array<char, 48> text{};
+    std::snprintf(text.data(), text.size(), "%.6g", value);
+    return text.data() + std::string(criterion_traits(criterion).unit == MeasureUnit::Degree ? " deg" : "");
+}
+
+/// "the 100 worst of 5998 faces", "all 5998 faces", "the worst of 5998 faces".
+std::string examined_text(const OptimalityReport& report) {
+    const std::size_t count = report.certificate.faces;
+    if (count == report.faces) {
+        return count == 1 ? "the face" : "all " + counted(count, "face");
+    }
+    return "the " + (count == 1 ? std::string() : std::to_string(count) + " ") + "worst of " +
+           counted(report.faces, "face");
+}
+
+/// What the file promises, as far as it is less than everything.
+std::string promise_text(const OptimalityReport& report) {
+    if (report.is_unfinished) {
+        return "; the file says that it was not finished";
+    }
+    if (report.scope == "max" || report.scope.starts_with("top:")) {
+        return "; --scope " + report.scope + " promises the worst face only";
+    }
+    if (report.scope.starts_with("above:")) {
+        return "; --scope " + report.scope + " promises the faces beyond that only";
+    }
+    return {};
+}
+
+JsonValue location_json(const Point3& p) { return JsonValue::array_of({p.x, p.y, p.z}); }
+
+}  // namespace
+
+void OptimalityOptions::add_to(CLI::App& parser) {
+    add_value(parser, "--criterion", criterion_text, "NAME",
+              "prove it again: slope|height|angle|eccentricity");
+    add_value(parser, "--worst", worst_text, "COUNT", "for so many of the worst faces (default 100)");
+    parser.add_flag("--all", all, "for all faces");
+    add_value(parser, "--reach", reach_text, "FACES", "by edges across so many, or all (default 100)");
+}
+
+void OptimalityOptions::finish() {
+    const auto need_criterion = [this](bool is_given, const std::string& option) {
+        if (is_given && criterion_text.empty()) {
+            throw UsageError(option + " is for --criterion: say which, slope, height, angle or eccentricity");
+        }
+    };
+    need_criterion(!worst_text.empty(), "--worst");
+    need_criterion(all, "--all");
+    need_criterion(!reach_text.empty(), "--reach");
+    if (all && !worst_text.empty()) {
+        throw UsageError("--worst and --all exclude each other");
+    }
+    criterion.reset();
+    worst.reset();
+    reach = kUsualReach;
+    if (!criterion_text.empty()) {
+        criterion = choice_value("--criterion", criterion_text, kCriterionChoices);
+    }
+    if (!worst_text.empty()) {
+        worst = static_cast<std::size_t>(whole_value("--worst", worst_text, 1));
+    }
+    if (reach_text == "all") {
+        reach.reset();
+    } else if (!reach_text.empty()) {
+        reach = static_cast<std::size_t>(whole_value("--reach", reach_text, 2));
+    }
+}
+
+std::size_t count_promised(const Tin& tin, Criterion criterion, const std::string& scope) {
+    constexpr std::string_view kAbove = "above:";
+    if (scope == "max" || scope.starts_with("top:")) {
+        return 1;
+    }
+    const std::optional<double> stop =
+        scope.starts_with(kAbove) ? find_number(scope.substr(kAbove.size())) : std::nullopt;
+    if (!stop) {
+        return kUsualFaces;
+    }
+    std::size_t count = 0;
+    for (std::uint32_t f = 0; f < tin.mesh.slot_count() && count < kUsualFaces; ++f) {
+        if (tin.mesh.is_terrain({f})) {
+            const double measure = measure_face(tin, {f}, criterion);
+            const bool is_better =
+                criterion_traits(criterion).is_greater_better ? measure >= *stop : measure <= *stop;
+            count += is_better ? 0U : 1U;
+        }
+    }
+    return count;
+}
+
+OptimalityReport check_optimality(const io::TinFile& file, const OptimalityOptions& options,
+                                  const Progress& progress) {
+    const Tin tin = io::make_tin(file);
+    OptimalityReport report;
+    report.criterion = *options.criterion;
+    const CriterionReport made = read_criterion_report(file.metadata);
+    if (made.name == criterion_traits(report.criterion).name) {
+        report.scope = made.scope;
+        report.is_unfinished = made.stopped_by == "budget" || made.stopped_by == "interrupt";
+    }
+    report.faces = file.face_ids.size();
+    report.reach = options.reach;
+    CertificateOptions certificate;
+    certificate.criterion = report.criterion;
+    certificate.faces = options.all     ? std::nullopt
+                        : options.worst ? options.worst
+                                        : std::optional(count_promised(tin, report.criterion, report.scope));
+    certificate.reach = options.reach;
+    certificate.progress = progress;
+    report.certificate = certify(tin, certificate);
+    // The mesh keeps the faces in the file's order; ghosts follow.
+    for (const Improvement& improvement : report.certificate.improvements) {
+        if (report.listed.size() < OptimalityReport::kListed) {
+            report.listed.push_back({file.face_ids[improvement.face.value], tin.position(improvement.anchor),
+                                     tin.position(improvement.apex), improvement.measure,
+                                     improvement.improved});
+        }
+    }
+    return report;
+}
+
+std::string optimality_verdict(const OptimalityReport& report) {
+    const Certificate& certificate = report.certificate;
+    std::string text = std::string(criterion_traits(report.criterion).name) + ": ";
+    const bool is_cut = certificate.cut > 0 && report.reach;
+    if (certificate.faces == 0) {
+        text += "no face to be examined";
+    } else if (report.improvable() > 0) {
+        text += std::to_string(report.improvable()) + " of " + examined_text(report) + " can be improved";
+    } else {
+        text += examined_text(report) + " cannot be improved" +
+                (is_cut ? " by edges across up to " + counted(*report.reach, "face") : std::string());
+    }
+    text += " (" + counted(certificate.edges, "edge") + " tried";
+    if (is_cut) {
+        text += ", " + counted(certificate.cut, "view") + " cut off";
+    }
+    text += "); worst " + measure_text(report.criterion, certificate.worst.all);
+    if (certificate.worst.interior) {
+        text += ", worst interior " + measure_text(report.criterion, *certificate.worst.interior);
+    }
+    return text + promise_text(report);
+}
+
+std::string improvable_lines(const OptimalityReport& report, const std::string& file) {
+    const std::string measure(criterion_traits(report.criterion).measure);
+    std::string lines;
+    for (const ImprovableFace& face : report.listed) {
+        lines += file + ": face " + std::to_string(face.face) + ": " + measure + " " +
+                 measure_text(report.criterion, face.measure) + ", " +
+                 measure_text(report.criterion, face.improved) + " with an edge from " +
+                 location_text({face.from.x, face.from.y}) + " to " + location_text({face.to.x, face.to.y}) +
+                 "\n";
+    }
+    const std::size_t unlisted = report.improvable() - report.listed.size();
+    return unlisted == 0
+               ? lines
+               : lines + file + ": and " + counted(unlisted, "more face") + " that can be improved\n";
+}
+
+JsonValue optimality_json(const OptimalityReport& report) {
+    const Certificate& certificate = report.certificate;
+    JsonValue listed = JsonValue::array();
+    for (const ImprovableFace& face : report.listed) {
+        listed.append(JsonValue::object()
+                          .set("face", face.face)
+                          .set("measure", face.measure)
+                          .set("improved", face.improved)
+                          .set("from", location_json(face.from))
+                          .set("to", location_json(face.to)));
+    }
+    JsonValue json = JsonValue::object();
+    json.set("criterion", std::string(criterion_traits(report.criterion).name));
+    if (!report.scope.empty()) {
+        json.set("scope", report.scope);
+    }
+    json.set("worst", certificate.worst.all);
+    if (certificate.worst.interior) {
+        json.set("worst_interior", *certificate.worst.interior);
+    }
+    json.set("examined", certificate.faces)
+        .set("anchorless", certificate.anchorless)
+        .set("edges_tried", certificate.edges);
+    if (report.reach) {
+        json.set("reach", *report.reach);
+    }
+    return json.set("views_beyond", certificate.cut)
+        .set("improvable", report.improvable())
+        .set("improvable_faces", listed);
+}
+
+}  // namespace tinwright::tools
