@@ -35,11 +35,32 @@ std::string measure_text(Criterion criterion, double value) {
     return text.data() + std::string(criterion_traits(criterion).unit == MeasureUnit::Degree ? " deg" : "");
 }
 
-/// "the 100 worst of 5998 faces", "all 5998 faces", "the worst of 5998 faces".
+bool promises_worst_only(const std::string& scope) { return scope == "max" || scope.starts_with("top:"); }
+
+/// How many faces, up to a hundred, are beyond the value of scope `above`; a hundred for another scope.
+std::size_t count_beyond(const Tin& tin, Criterion criterion, const std::string& scope) {
+    constexpr std::string_view kAbove = "above:";
+    const std::optional<double> stop =
+        scope.starts_with(kAbove) ? find_number(scope.substr(kAbove.size())) : std::nullopt;
+    if (!stop) {
+        return kUsualFaces;
+    }
+    const bool is_greater_better = criterion_traits(criterion).is_greater_better;
+    std::size_t count = 0;
+    for (std::uint32_t f = 0; f < tin.mesh.slot_count() && count < kUsualFaces; ++f) {
+        if (tin.mesh.is_terrain({f})) {
+            const double measure = measure_face(tin, {f}, criterion);
+            count += (is_greater_better ? measure < *stop : measure > *stop) ? 1U : 0U;
+        }
+    }
+    return count;
+}
+
+/// "the 100 worst of 5998 faces", "the worst of 5998 faces", "5998 faces".
 std::string examined_text(const OptimalityReport& report) {
     const std::size_t count = report.certificate.faces;
     if (count == report.faces) {
-        return count == 1 ? "the face" : "all " + counted(count, "face");
+        return counted(count, "face");
     }
     return "the " + (count == 1 ? std::string() : std::to_string(count) + " ") + "worst of " +
            counted(report.faces, "face");
@@ -50,7 +71,7 @@ std::string promise_text(const OptimalityReport& report) {
     if (report.is_unfinished) {
         return "; the file says that it was not finished";
     }
-    if (report.scope == "max" || report.scope.starts_with("top:")) {
+    if (promises_worst_only(report.scope)) {
         return "; --scope " + report.scope + " promises the worst face only";
     }
     if (report.scope.starts_with("above:")) {
@@ -99,28 +120,6 @@ void OptimalityOptions::finish() {
     }
 }
 
-std::size_t count_promised(const Tin& tin, Criterion criterion, const std::string& scope) {
-    constexpr std::string_view kAbove = "above:";
-    if (scope == "max" || scope.starts_with("top:")) {
-        return 1;
-    }
-    const std::optional<double> stop =
-        scope.starts_with(kAbove) ? find_number(scope.substr(kAbove.size())) : std::nullopt;
-    if (!stop) {
-        return kUsualFaces;
-    }
-    std::size_t count = 0;
-    for (std::uint32_t f = 0; f < tin.mesh.slot_count() && count < kUsualFaces; ++f) {
-        if (tin.mesh.is_terrain({f})) {
-            const double measure = measure_face(tin, {f}, criterion);
-            const bool is_better =
-                criterion_traits(criterion).is_greater_better ? measure >= *stop : measure <= *stop;
-            count += is_better ? 0U : 1U;
-        }
-    }
-    return count;
-}
-
 OptimalityReport check_optimality(const io::TinFile& file, const OptimalityOptions& options,
                                   const Progress& progress) {
     const Tin tin = io::make_tin(file);
@@ -137,10 +136,17 @@ OptimalityReport check_optimality(const io::TinFile& file, const OptimalityOptio
     certificate.criterion = report.criterion;
     certificate.faces = options.all     ? std::nullopt
                         : options.worst ? options.worst
-                                        : std::optional(count_promised(tin, report.criterion, report.scope));
+                                        : std::optional(count_beyond(tin, report.criterion, report.scope));
+    const bool is_free = !options.all && !options.worst;
+    certificate.until_improvable = is_free && promises_worst_only(report.scope);
     certificate.reach = options.reach;
     certificate.progress = progress;
     report.certificate = certify(tin, certificate);
+    if (certificate.until_improvable && report.improvable() > 0 && report.certificate.faces > 1) {
+        report.is_next_improvable = true;
+        report.certificate.improvements.clear();
+        --report.certificate.faces;
+    }
     // The mesh keeps the faces in the file's order; ghosts follow.
     for (const Improvement& improvement : report.certificate.improvements) {
         if (report.listed.size() < OptimalityReport::kListed) {
@@ -159,10 +165,13 @@ std::string optimality_verdict(const OptimalityReport& report) {
     if (certificate.faces == 0) {
         text += "no face to be examined";
     } else if (report.improvable() > 0) {
-        text += std::to_string(report.improvable()) + " of " + examined_text(report) + " can be improved";
+        text += (certificate.faces == 1 ? "" : std::to_string(report.improvable()) + " of ") +
+                examined_text(report) + " can be improved";
     } else {
-        text += examined_text(report) + " cannot be improved" +
-                (is_cut ? " by edges across up to " + counted(*report.reach, "face") : std::string());
+        text += (certificate.faces == report.faces && report.faces > 1 ? "all " : "") +
+                examined_text(report) + " cannot be improved" +
+                (is_cut ? " by edges across up to " + counted(*report.reach, "face") : std::string()) +
+                (report.is_next_improvable ? ", the next one can" : "");
     }
     text += " (" + counted(certificate.edges, "edge") + " tried";
     if (is_cut) {
@@ -217,7 +226,8 @@ JsonValue optimality_json(const OptimalityReport& report) {
     if (report.reach) {
         json.set("reach", *report.reach);
     }
-    return json.set("views_beyond", certificate.cut)
+    return json.set("views_cut_off", certificate.cut)
+        .set("next_improvable", report.is_next_improvable)
         .set("improvable", report.improvable())
         .set("improvable_faces", listed);
 }

@@ -25,7 +25,7 @@ struct OptimalityOptions {
 
     // After `finish`:
     std::optional<Criterion> criterion;
-    std::optional<std::size_t> worst;  ///< empty: as many as the file promises, or all
+    std::optional<std::size_t> worst;  ///< empty: a hundred, or what the scope promises
     std::optional<std::size_t> reach;  ///< empty: without limit
 
     void add_to(CLI::App& parser);
@@ -53,16 +53,16 @@ struct OptimalityReport {
     std::size_t faces = 0;       ///< of the TIN
     std::optional<std::size_t> reach;
     Certificate certificate;  ///< with slots as faces, which mean nothing outside
+    /// The face after those examined can be improved, which the scope does not rule out.
+    bool is_next_improvable = false;
     std::vector<ImprovableFace> listed;
 
     [[nodiscard]] std::size_t improvable() const { return certificate.improvements.size(); }
 };
 
-/// How many of the worst faces to examine unless told: those that the scope promises to be as good as can be,
-/// and a hundred where it promises all of them or is not known.
-std::size_t count_promised(const Tin& tin, Criterion criterion, const std::string& scope);
-
-/// `file`: without violations. Throws InputError, Cancelled.
+/// Examines as many of the worst faces as `options` say. If they do not, a hundred: of scope `above` only
+/// those beyond its value, and of `max` and `top`, which promise no more than the worst face, down to the
+/// first that can be improved. `file`: without violations. Throws InputError, Cancelled.
 OptimalityReport check_optimality(const io::TinFile& file, const OptimalityOptions& options,
                                   const Progress& progress);
 

@@ -18,7 +18,8 @@ using namespace tinwright;
 using namespace tinwright_tests;
 
 Certificate certify_all(const Tin& tin, Criterion criterion) {
-    return certify(tin, {.criterion = criterion, .faces = {}, .reach = {}, .progress = {}});
+    return certify(
+        tin, {.criterion = criterion, .faces = {}, .until_improvable = false, .reach = {}, .progress = {}});
 }
 
 /// A kite cut along its long diagonal: both faces are obtuse, the lower one (0) more than the upper one (1).
@@ -179,8 +180,11 @@ TEST_SUITE("optimal/certificate") {
                 CHECK(certificate.improvements.empty());
 
                 optimize_to(kMaxScope, criterion, other);
-                const Certificate worst =
-                    certify(other, {.criterion = criterion, .faces = 1, .reach = {}, .progress = {}});
+                const Certificate worst = certify(other, {.criterion = criterion,
+                                                          .faces = 1,
+                                                          .until_improvable = false,
+                                                          .reach = {},
+                                                          .progress = {}});
                 CHECK(worst.faces == 1);
                 CHECK(worst.improvements.empty());
                 CHECK(worst.worst.all == certificate.worst.all);
@@ -212,7 +216,11 @@ TEST_SUITE("optimal/certificate") {
     TEST_CASE("edges beyond the reach are not tried, and that is told") {
         const Tin tin = kite();
         const auto reach_to = [&tin](std::size_t reach) {
-            return certify(tin, {.criterion = Criterion::Angle, .faces = {}, .reach = reach, .progress = {}});
+            return certify(tin, {.criterion = Criterion::Angle,
+                                 .faces = {},
+                                 .until_improvable = false,
+                                 .reach = reach,
+                                 .progress = {}});
         };
         CHECK(reach_to(2).improvements.size() == 1);
         CHECK(reach_to(2).cut == 0);
@@ -227,8 +235,11 @@ TEST_SUITE("optimal/certificate") {
         CHECK(all.cut == 0);
         std::size_t edges = 0;
         for (const std::size_t reach : {1U, 2U, 4U, 8U, 16U, 400U}) {
-            const Certificate some = certify(
-                optimal, {.criterion = Criterion::Height, .faces = {}, .reach = reach, .progress = {}});
+            const Certificate some = certify(optimal, {.criterion = Criterion::Height,
+                                                       .faces = {},
+                                                       .until_improvable = false,
+                                                       .reach = reach,
+                                                       .progress = {}});
             CHECK(some.edges >= edges);
             CHECK((some.cut == 0) == (some.edges == all.edges));
             edges = some.edges;
@@ -267,8 +278,11 @@ TEST_SUITE("optimal/certificate") {
         Tin tin = general_families().front().make(random, 100);
         flip_at_random(random, tin, 60);
         const Certificate all = certify_all(tin, Criterion::Slope);
-        const Certificate some =
-            certify(tin, {.criterion = Criterion::Slope, .faces = 50, .reach = {}, .progress = {}});
+        const Certificate some = certify(tin, {.criterion = Criterion::Slope,
+                                               .faces = 50,
+                                               .until_improvable = false,
+                                               .reach = {},
+                                               .progress = {}});
         CHECK(some.faces == 50);
         REQUIRE(some.improvements.size() > 5);
         REQUIRE(some.improvements.size() <= all.improvements.size());
@@ -277,26 +291,45 @@ TEST_SUITE("optimal/certificate") {
             CHECK(some.improvements[i].improved == all.improvements[i].improved);
             CHECK((i == 0 || some.improvements[i].measure <= some.improvements[i - 1].measure));
         }
-        const Certificate most =
-            certify(tin, {.criterion = Criterion::Slope, .faces = 100000, .reach = {}, .progress = {}});
+        const Certificate first = certify(tin, {.criterion = Criterion::Slope,
+                                                .faces = {},
+                                                .until_improvable = true,
+                                                .reach = {},
+                                                .progress = {}});
+        REQUIRE(first.improvements.size() == 1);
+        CHECK(first.improvements[0].face == all.improvements[0].face);
+        CHECK(first.faces < all.faces);
+        const Certificate most = certify(tin, {.criterion = Criterion::Slope,
+                                               .faces = 100000,
+                                               .until_improvable = false,
+                                               .reach = {},
+                                               .progress = {}});
         CHECK(most.faces == tin.mesh.count_terrain());
-        CHECK(certify(tin, {.criterion = Criterion::Slope, .faces = 0, .reach = {}, .progress = {}}).faces ==
-              0);
+        CHECK(certify(tin, {.criterion = Criterion::Slope,
+                            .faces = 0,
+                            .until_improvable = false,
+                            .reach = {},
+                            .progress = {}})
+                  .faces == 0);
     }
 
     TEST_CASE("it shows progress and can be stopped") {
         Random random(8);
         const Tin tin = general_families().front().make(random, 50);
         double last = -1;
-        static_cast<void>(certify(
-            tin, {.criterion = Criterion::Angle, .faces = {}, .reach = {}, .progress = [&](double done) {
-                      CHECK(done >= last);
-                      last = done;
-                      return true;
-                  }}));
+        static_cast<void>(certify(tin, {.criterion = Criterion::Angle,
+                                        .faces = {},
+                                        .until_improvable = false,
+                                        .reach = {},
+                                        .progress = [&](double done) {
+                                            CHECK(done >= last);
+                                            last = done;
+                                            return true;
+                                        }}));
         CHECK(last == 1);
         CHECK_THROWS_AS(static_cast<void>(certify(tin, {.criterion = Criterion::Angle,
                                                         .faces = {},
+                                                        .until_improvable = false,
                                                         .reach = {},
                                                         .progress = [](double) { return false; }})),
                         Cancelled);

@@ -88,7 +88,7 @@ class Certifier {
     Certifier(const Tin& tin, const C& criterion, const CertificateOptions& options)
         : tin_(tin),
           criterion_(criterion),
-          progress_(options.progress),
+          options_(options),
           reach_(options.reach.value_or(std::numeric_limits<std::size_t>::max())),
           rights_(tin, 1,
                   [this](auto i, auto k, auto j) {
@@ -98,7 +98,7 @@ class Certifier {
               return is_better(lefts_[j], lefts_[k], lefts_[i]) ? -kInfinity : kInfinity;
           }) {}
 
-    Certificate certify(std::optional<std::size_t> count);
+    Certificate certify();
 
   private:
     /// An edge to be looked through, between two lines of sight.
@@ -112,7 +112,7 @@ class Certifier {
     };
 
     void measure_faces();
-    [[nodiscard]] std::vector<FaceId> worst_faces(std::optional<std::size_t> count);
+    [[nodiscard]] std::vector<FaceId> worst_faces() const;
     void examine(FaceId face);
     bool look_from(FaceId face, unsigned corner);
     [[nodiscard]] bool is_open(HalfEdgeId h) const;
@@ -128,7 +128,7 @@ class Certifier {
 
     const Tin& tin_;
     const C& criterion_;
-    const Progress& progress_;
+    const CertificateOptions& options_;
     std::size_t reach_;
     Certificate certificate_;
     std::vector<double> measure_;  ///< of each slot that is terrain
@@ -143,16 +143,19 @@ class Certifier {
 };
 
 template <FaceCriterion C>
-Certificate Certifier<C>::certify(std::optional<std::size_t> count) {
+Certificate Certifier<C>::certify() {
     measure_faces();
-    const std::vector<FaceId> faces = worst_faces(count);
-    for (std::size_t i = 0; i < faces.size(); ++i) {
-        done_ = static_cast<double>(i) / static_cast<double>(faces.size());
-        report_progress(progress_, done_);
-        examine(faces[i]);
+    const std::vector<FaceId> faces = worst_faces();
+    for (const FaceId face : faces) {
+        if (options_.until_improvable && !certificate_.improvements.empty()) {
+            break;
+        }
+        done_ = static_cast<double>(certificate_.faces) / static_cast<double>(faces.size());
+        report_progress(options_.progress, done_);
+        examine(face);
+        ++certificate_.faces;
     }
-    certificate_.faces = faces.size();
-    report_progress(progress_, 1);
+    report_progress(options_.progress, 1);
     return std::move(certificate_);
 }
 
@@ -168,7 +171,7 @@ void Certifier<C>::measure_faces() {
 }
 
 template <FaceCriterion C>
-std::vector<FaceId> Certifier<C>::worst_faces(std::optional<std::size_t> count) {
+std::vector<FaceId> Certifier<C>::worst_faces() const {
     std::vector<FaceId> faces;
     for (std::uint32_t f = 0; f < measure_.size(); ++f) {
         if (tin_.mesh.is_terrain({f})) {
@@ -180,7 +183,7 @@ std::vector<FaceId> Certifier<C>::worst_faces(std::optional<std::size_t> count) 
         const double y = measure_[b.value];
         return x > y || (x == y && a < b);
     };
-    const std::size_t kept = std::min(count.value_or(faces.size()), faces.size());
+    const std::size_t kept = std::min(options_.faces.value_or(faces.size()), faces.size());
     std::partial_sort(faces.begin(), faces.begin() + static_cast<std::ptrdiff_t>(kept), faces.end(),
                       is_worse);
     faces.resize(kept);
@@ -324,14 +327,14 @@ double Certifier<C>::fill(std::span<const VertexId> ring) const {
 /// Often enough to be stopped, seldom enough to cost nothing.
 template <FaceCriterion C>
 bool Certifier<C>::poll() {
-    return (++steps_ & 0xFFFU) != 0 || !progress_ || progress_(done_);
+    return (++steps_ & 0xFFFU) != 0 || !options_.progress || options_.progress(done_);
 }
 
 }  // namespace
 
 Certificate certify(const Tin& tin, const CertificateOptions& options) {
     Certificate certificate = visit_criterion(options.criterion, tin, [&](const auto& criterion) {
-        return Certifier(tin, criterion, options).certify(options.faces);
+        return Certifier(tin, criterion, options).certify();
     });
     certificate.worst = find_worst(tin, options.criterion);
     return certificate;

@@ -15,6 +15,7 @@ namespace tinwright {
 struct CertificateOptions {
     Criterion criterion = Criterion::Slope;
     std::optional<std::size_t> faces = 100;  ///< how many of the worst to examine; empty: all
+    bool until_improvable = false;           ///< no more once one is found that can be improved
     /// Edges that cross more faces than this are not tried; empty: all edges are.
     std::optional<std::size_t> reach;
     Progress progress;  ///< throws Cancelled when it says stop
