@@ -171,8 +171,9 @@ TEST_SUITE("optimal/edge_insertion_invariance") {
         const tbb::global_control allow_two(tbb::global_control::max_allowed_parallelism, 2);
         for (int seed = 0; seed < cases(3); ++seed) {
             CAPTURE(seed);
-            for (auto& [name, samples] : sample_sets(static_cast<std::uint64_t>(seed))) {
-                CAPTURE(name);
+            for (const auto& set : sample_sets(static_cast<std::uint64_t>(seed))) {
+                CAPTURE(set.first);
+                const std::vector<Point3>& samples = set.second;
                 Random random(static_cast<std::uint64_t>(seed));
                 const auto other = shuffled(random, samples);
                 for (const Criterion criterion : kCriteria) {

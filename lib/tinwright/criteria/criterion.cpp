@@ -32,8 +32,8 @@ std::optional<Criterion> find_criterion(std::string_view name) {
 }
 
 double measure_face(const Tin& tin, FaceId face, Criterion criterion) {
-    const auto& [a, b, c] = tin.mesh.face(face).vertex;
-    return visit_criterion(criterion, tin, [&a, &b, &c](const FaceCriterion auto& code) {
+    return visit_criterion(criterion, tin, [&tin, face](const FaceCriterion auto& code) {
+        const auto& [a, b, c] = tin.mesh.face(face).vertex;
         return code.to_report(code.measure(a, b, c));
     });
 }
