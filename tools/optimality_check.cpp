@@ -72,7 +72,8 @@ std::string promise_text(const OptimalityReport& report) {
         return "; the file says that it was not finished";
     }
     if (promises_worst_only(report.scope)) {
-        return "; --scope " + report.scope + " promises the worst face only";
+        return "; --scope " + report.scope + " promises " +
+               (report.scope == "max" ? "the worst face only" : "its worst faces only");
     }
     if (report.scope.starts_with("above:")) {
         return "; --scope " + report.scope + " promises the faces beyond that only";
@@ -116,7 +117,8 @@ void OptimalityOptions::finish() {
     if (reach_text == "all") {
         reach.reset();
     } else if (!reach_text.empty()) {
-        reach = static_cast<std::size_t>(whole_value("--reach", reach_text, 2));
+        // An edge that crosses fewer faces than two crosses none.
+        reach = static_cast<std::size_t>(whole_value("--reach (unless all)", reach_text, 2));
     }
 }
 
