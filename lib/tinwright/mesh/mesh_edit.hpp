@@ -25,7 +25,8 @@ struct CavityFace {
         static constexpr Across inner(std::uint32_t face, unsigned edge) {
             return Across(4ULL * face + edge);
         }
-        constexpr Across() = default;
+        constexpr Across() = default;  ///< not known yet
+        [[nodiscard]] constexpr bool is_known() const { return code_ != kUnknown; }
         [[nodiscard]] constexpr bool is_rim() const { return (code_ & kRim) != 0; }
         /// The half-edge, within the cavity, that the new half-edge takes the place of.
         [[nodiscard]] constexpr HalfEdgeId old() const { return {static_cast<std::uint32_t>(code_)}; }
@@ -34,8 +35,9 @@ struct CavityFace {
 
       private:
         static constexpr std::uint64_t kRim = 1ULL << 63U;
+        static constexpr std::uint64_t kUnknown = 1ULL << 62U;
         constexpr explicit Across(std::uint64_t code) : code_(code) {}
-        std::uint64_t code_ = 0;
+        std::uint64_t code_ = kUnknown;
     };
 
     std::array<VertexId, 3> vertex;  ///< counter-clockwise

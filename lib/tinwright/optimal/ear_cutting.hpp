@@ -66,130 +66,133 @@ inline constexpr unsigned kNoHorizon = std::numeric_limits<unsigned>::max();
 
 enum class Side : std::uint8_t { Left, Right };
 
-/// The polygon on one side of an edge q s that is being tried: its vertices from q on, less those that ears
-/// have cut off, and those ears. The polygon is closed by s, the tip.
-template <Side kSide>
-class EarStack {
-  public:
-    using Across = CavityFace::Across;
-
-    struct Mark {
-        std::size_t vertices;
-        std::size_t ears;
-    };
-
-    /// Begins with q and its neighbour in the face to be improved; `edge`: the half-edge between them there.
-    void start(VertexId q, VertexId neighbour, HalfEdgeId edge) {
-        ring_.clear();
-        ears_.clear();
-        size_ = 0;
-        append(q, {});
-        append(neighbour, Across::rim(edge));
-    }
-
-    /// Cuts ears at `tip` until one does not turn inwards or is not admitted, or only `kept` vertices are
-    /// left. `edge`: the half-edge between the last vertex and the tip. Returns whether `kept` are left.
-    template <FaceCriterion C>
-    bool cut(const SearchSpace<C>& space, MeasureLimit& limit, VertexId tip, Across edge, std::size_t kept) {
-        tip_edge_ = edge;
-        while (size_ > kept) {
-            const RingVertex& last = ring_[size_ - 1];
-            const VertexId before = ring_[size_ - 2].vertex;
-            const int turn = space.orient(before, last.vertex, tip);
-            if (turn != (kSide == Side::Left ? -1 : 1) ||
-                !limit.admits(space.criterion.measure(before, last.vertex, tip))) {
-                return false;
-            }
-            add_ear(before, last, tip);
-            --size_;
-        }
-        return true;
-    }
-
-    /// Adds the face of q, its neighbour and the tip, when only those are left.
-    void close(VertexId tip) {
-        add_ear(ring_[0].vertex, ring_[1], tip);
-        size_ = 1;
-    }
-
-    /// The tip becomes the last vertex of the polygon.
-    void push(VertexId tip) { append(tip, tip_edge_); }
-
-    [[nodiscard]] Mark mark() const { return {size_, ears_.size()}; }
-    /// Puts back ears cut since, if nothing was pushed since.
-    void restore(Mark mark) {
-        size_ = mark.vertices;
-        ears_.resize(mark.ears);
-    }
-
-    [[nodiscard]] const std::vector<CavityFace>& ears() const { return ears_; }
-    /// The side of q s, once only q is left.
-    [[nodiscard]] Across closing_edge() const { return tip_edge_; }
-
-  private:
-    struct RingVertex {
-        VertexId vertex;
-        Across edge;  ///< to the vertex before
-    };
-
-    void append(VertexId vertex, Across edge) {
-        ring_.resize(size_);
-        ring_.push_back({vertex, edge});
-        ++size_;
-    }
-
-    void add_ear(VertexId before, const RingVertex& last, VertexId tip) {
-        // Counter-clockwise: on the left the ring runs clockwise around the ears.
-        constexpr bool kIsLeft = kSide == Side::Left;
-        constexpr unsigned kRingEdge = 0;
-        constexpr unsigned kTipEdge = kIsLeft ? 2 : 1;
-        constexpr unsigned kNewEdge = kIsLeft ? 1 : 2;
-        const auto ear = static_cast<std::uint32_t>(ears_.size());
-        CavityFace& face = ears_.emplace_back();
-        face.vertex[0] = kIsLeft ? last.vertex : before;
-        face.vertex[1] = kIsLeft ? before : last.vertex;
-        face.vertex[2] = tip;
-        face.across[kRingEdge] = last.edge;
-        face.across[kTipEdge] = tip_edge_;
-        for (const unsigned edge : {kRingEdge, kTipEdge}) {
-            const Across across = face.across[edge];
-            if (!across.is_rim()) {
-                ears_[across.face()].across[across.edge()] = Across::inner(ear, edge);
-            }
-        }
-        tip_edge_ = Across::inner(ear, kNewEdge);
-    }
-
-    std::vector<RingVertex> ring_;  ///< beyond `size_`: what ears have cut off
-    std::size_t size_ = 0;
-    std::vector<CavityFace> ears_;
-    Across tip_edge_;
-};
-
-/// An improvement: the faces crossed by an edge q s, and those that take their place.
+/// The faces crossed by an edge q s, and those that take their place.
 struct Refill {
     std::vector<FaceId> slots;
     std::vector<CavityFace> faces;
+};
 
-    /// Joins the ears of both sides along q s.
-    void join(const EarStack<Side::Left>& left, const EarStack<Side::Right>& right) {
-        using Across = CavityFace::Across;
-        faces = left.ears();
-        const auto shift = static_cast<std::uint32_t>(faces.size());
-        const auto shifted = [shift](Across across) {
-            return across.is_rim() ? across : Across::inner(across.face() + shift, across.edge());
-        };
-        for (CavityFace face : right.ears()) {
-            for (Across& across : face.across) {
-                across = shifted(across);
-            }
-            faces.push_back(face);
-        }
-        const Across of_left = left.closing_edge();
-        const Across of_right = shifted(right.closing_edge());
-        faces[of_left.face()].across[of_left.edge()] = of_right;
-        faces[of_right.face()].across[of_right.edge()] = of_left;
+/// Cuts ears off the two polygons that an edge q s leaves, while the way to s is still being sought. What has
+/// been cut stays as it is when a way forks or a tip is given up: chains share their past.
+class EarCutter {
+  public:
+    using Across = CavityFace::Across;
+
+    /// The polygon on one side: its vertices from q to the last, less those that ears have cut off, and those
+    /// ears. The tip, a vertex beyond the last, closes it. Copying a chain keeps its state.
+    struct Chain {
+        std::uint32_t last;
+        std::uint32_t size;
+        std::uint32_t ears;
+        Across tip_edge;  ///< between the last vertex and the tip
+    };
+
+    void clear() {
+        ring_.clear();
+        ears_.clear();
     }
+
+    /// A chain of q and its neighbour in the face to be improved; `edge`: the half-edge between them there.
+    Chain start(VertexId q, VertexId neighbour, HalfEdgeId edge) {
+        ring_.push_back({q, kNone, {}});
+        Chain chain{static_cast<std::uint32_t>(ring_.size() - 1), 1, kNone, Across::rim(edge)};
+        push(chain, neighbour);
+        return chain;
+    }
+
+    /// The tip becomes the last vertex.
+    void push(Chain& chain, VertexId tip) {
+        ring_.push_back({tip, chain.last, chain.tip_edge});
+        chain.last = static_cast<std::uint32_t>(ring_.size() - 1);
+        ++chain.size;
+    }
+
+    /// Cuts the last vertex off if the ear with the tip turns inwards and is admitted.
+    template <Side kSide, FaceCriterion C>
+    bool cut_one(const SearchSpace<C>& space, MeasureLimit& limit, Chain& chain, VertexId tip) {
+        const RingVertex& last = ring_[chain.last];
+        const VertexId before = ring_[last.before].vertex;
+        if (space.orient(before, last.vertex, tip) != (kSide == Side::Left ? -1 : 1) ||
+            !limit.admits(space.criterion.measure(before, last.vertex, tip))) {
+            return false;
+        }
+        add_ear<kSide>(chain, tip);
+        return true;
+    }
+
+    /// Cuts ears until one cannot be cut or only `kept` vertices are left. Returns whether `kept` are left.
+    template <Side kSide, FaceCriterion C>
+    bool cut(const SearchSpace<C>& space, MeasureLimit& limit, Chain& chain, VertexId tip,
+             std::uint32_t kept) {
+        while (chain.size > kept && cut_one<kSide>(space, limit, chain, tip)) {
+        }
+        return chain.size == kept;
+    }
+
+    /// Cuts the last vertex off, whatever the ear.
+    template <Side kSide>
+    void add_ear(Chain& chain, VertexId tip) {
+        // Counter-clockwise: on the left the ring runs clockwise around the ears.
+        constexpr bool kIsLeft = kSide == Side::Left;
+        constexpr unsigned kTipEdge = kIsLeft ? 2 : 1;
+        constexpr unsigned kNewEdge = kIsLeft ? 1 : 2;
+        const RingVertex& last = ring_[chain.last];
+        const VertexId before = ring_[last.before].vertex;
+        const auto ear = static_cast<std::uint32_t>(ears_.size());
+        CavityFace face;
+        face.vertex = {kIsLeft ? last.vertex : before, kIsLeft ? before : last.vertex, tip};
+        face.across[0] = last.edge;
+        face.across[kTipEdge] = chain.tip_edge;
+        ears_.push_back({face, chain.ears, 0});
+        chain.ears = ear;
+        chain.tip_edge = Across::inner(ear, kNewEdge);
+        chain.last = last.before;
+        --chain.size;
+    }
+
+    /// The ears of two chains of which only q is left, joined along q s.
+    void join(const Chain& left, const Chain& right, std::vector<CavityFace>& faces) {
+        faces.clear();
+        for (const Chain& chain : {left, right}) {
+            for (std::uint32_t ear = chain.ears; ear != kNone; ear = ears_[ear].previous) {
+                ears_[ear].number = static_cast<std::uint32_t>(faces.size());
+                faces.push_back(ears_[ear].face);
+            }
+        }
+        const auto link = [this, &faces](Across inner, std::uint32_t face, unsigned edge) {
+            const std::uint32_t other = ears_[inner.face()].number;
+            faces[other].across[inner.edge()] = Across::inner(face, edge);
+            faces[face].across[edge] = Across::inner(other, inner.edge());
+        };
+        for (const Chain& chain : {left, right}) {
+            for (std::uint32_t ear = chain.ears; ear != kNone; ear = ears_[ear].previous) {
+                for (unsigned edge = 0; edge < 3; ++edge) {
+                    const Across across = ears_[ear].face.across[edge];
+                    if (!across.is_rim() && across.is_known()) {
+                        link(across, ears_[ear].number, edge);
+                    }
+                }
+            }
+        }
+        link(left.tip_edge, ears_[right.tip_edge.face()].number, right.tip_edge.edge());
+    }
+
+  private:
+    static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
+
+    struct RingVertex {
+        VertexId vertex;
+        std::uint32_t before;
+        Across edge;  ///< to the vertex before
+    };
+    struct Ear {
+        CavityFace face;  ///< its third edge is known to the ear, or the side of q s, that comes upon it
+        std::uint32_t previous;
+        std::uint32_t number;  ///< among those joined
+    };
+
+    std::vector<RingVertex> ring_;
+    std::vector<Ear> ears_;
 };
 
 }  // namespace tinwright::internal

@@ -34,6 +34,7 @@ class Stopwatch {
         return std::chrono::duration<double>(Clock::now() - start_).count();
     }
     [[nodiscard]] StoppedBy stopped_by() const { return stopped_by_; }
+    [[nodiscard]] bool has_stopped() const { return stopped_by_ != StoppedBy::Finished; }
     /// Whether to stop; `fraction` gives how much is done.
     template <class Fraction>
     bool is_over(const Fraction& fraction) {
@@ -110,6 +111,7 @@ class Engine {
     void descend_to_worst();
     void sweep_until_stable();
     void sweep(unsigned horizon);
+    [[nodiscard]] bool has_run_away() const;
     void forget_tries_near(const std::vector<FaceId>& changed);
 
     /// A try of a face that failed.
@@ -261,7 +263,7 @@ void Engine<C>::descend_to_worst() {
     constexpr std::size_t kGrowth = 16;
     for (std::size_t rank = kFirst; report_.frozen == 0; rank *= kGrowth) {
         descend(measure_of_rank(rank), true);
-        if (stopwatch_.stopped_by() != StoppedBy::Finished) {
+        if (stopwatch_.has_stopped()) {
             return;
         }
     }
@@ -273,8 +275,6 @@ void Engine<C>::descend_to_worst() {
 /// first, which wanders through all memory.
 template <FaceCriterion C>
 void Engine<C>::sweep_until_stable() {
-    // Many more steps than ever seen on terrain: from then on the worst comes first.
-    const std::size_t most = 16 * vertex_count_;
     tries_.assign(measures_.size(), FailedTry{});
     if constexpr (WeakCriterion<C>) {
         // Most improvements are near, but most of the time goes into looking far: that is left for later.
@@ -284,20 +284,29 @@ void Engine<C>::sweep_until_stable() {
     std::size_t insertions = 0;
     do {
         insertions = report_.insertions;
-        if (insertions > most) {
-            descend(-kInfinity, false);
-            tries_.assign(measures_.size(), FailedTry{});
-        }
         sweep(internal::kNoHorizon);
-    } while (insertions != report_.insertions && stopwatch_.stopped_by() == StoppedBy::Finished);
-    report_.frozen = 0;
-    report_.ties = 0;
+    } while (insertions != report_.insertions && !has_run_away() && !stopwatch_.has_stopped());
+    if (has_run_away() && !stopwatch_.has_stopped()) {
+        descend(-kInfinity, false);
+        return;
+    }
     for (std::uint32_t f = 0; f < tries_.size(); ++f) {
         if (mesh_.is_terrain({f}) && tries_[f].reach != kNone) {
             ++report_.frozen;
             report_.ties += tries_[f].ties;
         }
     }
+}
+
+/// Whether sweeps take many more steps than ever seen on terrain, as on points around a circle or along two
+/// lines: the theorems bound them when the worst face comes first.
+template <FaceCriterion C>
+bool Engine<C>::has_run_away() const {
+    constexpr std::size_t kInsertionsPerVertex = 3;
+    constexpr std::size_t kVisitsPerFace = 256;
+    constexpr std::size_t kSmall = 1U << 16U;
+    return report_.insertions > kInsertionsPerVertex * vertex_count_ + kSmall ||
+           search_.visits() > kVisitsPerFace * measures_.size() + kSmall;
 }
 
 /// Tries every face that has to be, and the new ones where a try succeeds. Afterwards a failed try stands
@@ -314,7 +323,7 @@ void Engine<C>::sweep(unsigned horizon) {
         while (!pending.empty()) {
             const FaceId face = pending.back();
             pending.pop_back();
-            if (stopwatch_.is_over([&] { return double(f) / double(measures_.size()); })) {
+            if (has_run_away() || stopwatch_.is_over([&] { return double(f) / double(measures_.size()); })) {
                 return;
             }
             if (!improve(face, horizon)) {

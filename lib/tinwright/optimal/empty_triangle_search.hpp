@@ -29,6 +29,8 @@ class EmptyTriangleSearch {
     /// How deep the last search that failed looked, 1 for the face next to the face to improve; more than the
     /// horizon if it wanted to look deeper.
     [[nodiscard]] unsigned reach() const { return reach_; }
+    /// Faces looked at, by all searches.
+    [[nodiscard]] std::size_t visits() const { return visits_; }
 
   private:
     /// An edge to cross next, and what bounds the view through it: the vertices in sight lie to the right of
@@ -36,20 +38,31 @@ class EmptyTriangleSearch {
     struct Node {
         HalfEdgeId edge;  ///< in the face on the near side; runs from the right to the left
         std::uint32_t parent;
+        std::uint32_t polygons;  ///< index of its polygons, or `kNone` while nobody has asked for them
         Direction left;
         Direction right;
         typename C::Cut::State state;
     };
 
-    bool fill(const SearchSpace<C>& space, MeasureLimit& limit, FaceId face, unsigned anchor,
-              std::uint32_t last);
+    /// The chains on both sides of the way to a node.
+    struct Polygons {
+        EarCutter::Chain left;
+        EarCutter::Chain right;
+    };
+    static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
+    /// The faces at q are q p s and q s r: until the end, the edges q p and q r are kept.
+    static constexpr std::uint32_t kKept = 2;
+
+    bool fill(const SearchSpace<C>& space, MeasureLimit& limit, FaceId face, std::uint32_t last);
+    Polygons polygons_of(const SearchSpace<C>& space, MeasureLimit& limit, std::uint32_t node);
 
     std::vector<Node> nodes_;
+    std::vector<Polygons> polygons_;
     std::vector<std::uint32_t> way_;
-    EarStack<Side::Left> left_;
-    EarStack<Side::Right> right_;
+    EarCutter cutter_;
     Refill refill_;
     std::size_t candidates_ = 0;
+    std::size_t visits_ = 0;
     unsigned reach_ = 0;
 };
 
@@ -72,7 +85,11 @@ bool EmptyTriangleSearch<C>::find(const SearchSpace<C>& space, MeasureLimit& lim
     const double measure = limit.value();
     const typename C::Cut cut(space.criterion, q, p, r, measure);
     nodes_.resize(std::max<std::size_t>(nodes_.size(), kLeastNodes));
-    nodes_[0] = {first, 0, direction(at_p, at_q), direction(at_r, at_q), cut.start()};
+    nodes_[0] = {first, 0, 0, direction(at_p, at_q), direction(at_r, at_q), cut.start()};
+    cutter_.clear();
+    polygons_.clear();
+    polygons_.push_back({cutter_.start(q, p, half_edge(face, previous_corner(anchor))),
+                         cutter_.start(q, r, half_edge(face, anchor))});
     std::uint32_t count = 1;
     std::uint32_t level_end = 1;
     for (std::uint32_t i = 0; i < count; ++i) {
@@ -93,7 +110,7 @@ bool EmptyTriangleSearch<C>::find(const SearchSpace<C>& space, MeasureLimit& lim
         if (goes_left && goes_right) {
             ++candidates_;
             if (limit.admits(space.criterion.measure(q, p, s)) &&
-                limit.admits(space.criterion.measure(q, s, r)) && fill(space, limit, face, anchor, i)) {
+                limit.admits(space.criterion.measure(q, s, r)) && fill(space, limit, face, i)) {
                 return true;
             }
             left = from_p;
@@ -109,11 +126,11 @@ bool EmptyTriangleSearch<C>::find(const SearchSpace<C>& space, MeasureLimit& lim
         const HalfEdgeId of_left = previous(t);
         const HalfEdgeId of_right = next(t);
         if (goes_left && is_within && space.may_cross(of_left, measure)) {
-            nodes_[count] = {of_left, i, node.left, right, node.state};
+            nodes_[count] = {of_left, i, kNone, node.left, right, node.state};
             count += !is_to_cut || cut.cross(nodes_[count].state, s, beyond[corner_of(t)]) ? 1 : 0;
         }
         if (goes_right && is_within && space.may_cross(of_right, measure)) {
-            nodes_[count] = {of_right, i, left, node.right, node.state};
+            nodes_[count] = {of_right, i, kNone, left, node.right, node.state};
             count +=
                 !is_to_cut || cut.cross(nodes_[count].state, beyond[next_corner(corner_of(t))], s) ? 1 : 0;
         }
@@ -122,50 +139,66 @@ bool EmptyTriangleSearch<C>::find(const SearchSpace<C>& space, MeasureLimit& lim
             level_end = count;
         }
     }
+    visits_ += count;
     return false;
+}
+
+/// The polygons on both sides of the way to a node, made from those of the nearest node on it that has some.
+template <WeakCriterion C>
+EmptyTriangleSearch<C>::Polygons EmptyTriangleSearch<C>::polygons_of(const SearchSpace<C>& space,
+                                                                     MeasureLimit& limit,
+                                                                     std::uint32_t node) {
+    using Across = CavityFace::Across;
+    way_.clear();
+    for (; nodes_[node].polygons == kNone; node = nodes_[node].parent) {
+        way_.push_back(node);
+    }
+    Polygons polygons = polygons_[nodes_[node].polygons];
+    for (; !way_.empty(); way_.pop_back()) {
+        Node& child = nodes_[way_.back()];
+        const HalfEdgeId t = space.mesh.twin(nodes_[child.parent].edge);
+        const HalfEdgeId of_left = previous(t);
+        const VertexId s = space.mesh.origin(of_left);
+        if (child.edge == of_left) {
+            polygons.right.tip_edge = Across::rim(next(t));
+            cutter_.cut<Side::Right>(space, limit, polygons.right, s, kKept);
+            cutter_.push(polygons.right, s);
+        } else {
+            polygons.left.tip_edge = Across::rim(of_left);
+            cutter_.cut<Side::Left>(space, limit, polygons.left, s, kKept);
+            cutter_.push(polygons.left, s);
+        }
+        child.polygons = static_cast<std::uint32_t>(polygons_.size());
+        polygons_.push_back(polygons);
+    }
+    return polygons;
 }
 
 /// Fills both sides of the edge from the anchor to the vertex behind the edge of node `last`.
 template <WeakCriterion C>
 bool EmptyTriangleSearch<C>::fill(const SearchSpace<C>& space, MeasureLimit& limit, FaceId face,
-                                  unsigned anchor, std::uint32_t last) {
+                                  std::uint32_t last) {
     using Across = CavityFace::Across;
     const TriangleMesh& mesh = space.mesh;
-    const VertexId q = mesh.vertex(face, anchor);
-    way_.assign(1, last);
-    while (way_.back() != 0) {
-        way_.push_back(nodes_[way_.back()].parent);
+    auto [left, right] = polygons_of(space, limit, last);
+    const HalfEdgeId t = mesh.twin(nodes_[last].edge);
+    const VertexId s = mesh.origin(previous(t));
+    left.tip_edge = Across::rim(previous(t));
+    right.tip_edge = Across::rim(next(t));
+    if (!cutter_.cut<Side::Left>(space, limit, left, s, kKept) ||
+        !cutter_.cut<Side::Right>(space, limit, right, s, kKept)) {
+        return false;
     }
-    std::reverse(way_.begin(), way_.end());
-
-    left_.start(q, mesh.vertex(face, previous_corner(anchor)), half_edge(face, previous_corner(anchor)));
-    right_.start(q, mesh.vertex(face, next_corner(anchor)), half_edge(face, anchor));
+    cutter_.add_ear<Side::Left>(left, s);
+    cutter_.add_ear<Side::Right>(right, s);
+    cutter_.join(left, right, refill_.faces);
     refill_.slots.assign(1, face);
-    // The faces at q are q p s and q s r: until the end, the edges q p and q r are kept.
-    constexpr std::size_t kKept = 2;
-    for (std::size_t i = 0; i < way_.size(); ++i) {
-        const HalfEdgeId t = mesh.twin(nodes_[way_[i]].edge);
-        refill_.slots.push_back(face_of(t));
-        const HalfEdgeId of_left = previous(t);
-        const HalfEdgeId of_right = next(t);
-        const VertexId s = mesh.origin(of_left);
-        if (i + 1 == way_.size()) {
-            if (!left_.cut(space, limit, s, Across::rim(of_left), kKept) ||
-                !right_.cut(space, limit, s, Across::rim(of_right), kKept)) {
-                return false;
-            }
-            left_.close(s);
-            right_.close(s);
-        } else if (nodes_[way_[i + 1]].edge == of_right) {
-            left_.cut(space, limit, s, Across::rim(of_left), kKept);
-            left_.push(s);
-        } else {
-            right_.cut(space, limit, s, Across::rim(of_right), kKept);
-            right_.push(s);
+    for (std::uint32_t node = last;; node = nodes_[node].parent) {
+        refill_.slots.push_back(face_of(mesh.twin(nodes_[node].edge)));
+        if (node == 0) {
+            return true;
         }
     }
-    refill_.join(left_, right_);
-    return true;
 }
 
 }  // namespace tinwright::internal

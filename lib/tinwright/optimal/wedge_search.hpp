@@ -23,12 +23,55 @@ class WedgeSearch {
     /// horizon if it wanted to look deeper.
     [[nodiscard]] unsigned reach() const { return static_cast<unsigned>(refill_.slots.size()); }
 
+    /// Faces looked at, by all searches.
+    [[nodiscard]] std::size_t visits() const { return visits_; }
+
   private:
-    EarStack<Side::Left> left_;
-    EarStack<Side::Right> right_;
+    enum class Outcome : std::uint8_t { Filled, LeftStuck, RightStuck, BothStuck };
+
+    template <FaceCriterion C>
+    Outcome cut_both(const SearchSpace<C>& space, MeasureLimit& limit, EarCutter::Chain& left,
+                     EarCutter::Chain& right, VertexId s);
+
+    EarCutter cutter_;
     Refill refill_;
     std::size_t candidates_ = 0;
+    std::size_t visits_ = 0;
 };
+
+/// Cuts ears on both sides in turn, so that what one side loses when the other gets stuck is no more than
+/// that one keeps [tan1993, Sec. 3.4.5]. A stuck side lets the other go on for about as long again: mostly it
+/// gets stuck too, and then the wedge is empty.
+template <FaceCriterion C>
+WedgeSearch::Outcome WedgeSearch::cut_both(const SearchSpace<C>& space, MeasureLimit& limit,
+                                           EarCutter::Chain& left, EarCutter::Chain& right, VertexId s) {
+    constexpr unsigned kLeastExtra = 8;
+    bool is_left_stuck = false;
+    bool is_right_stuck = false;
+    unsigned cuts = 0;
+    while (!is_left_stuck && !is_right_stuck && (left.size > 1 || right.size > 1)) {
+        ++cuts;
+        is_left_stuck = left.size > 1 && !cutter_.cut_one<Side::Left>(space, limit, left, s);
+        is_right_stuck = right.size > 1 && !cutter_.cut_one<Side::Right>(space, limit, right, s);
+    }
+    if (!is_left_stuck && !is_right_stuck) {
+        return Outcome::Filled;
+    }
+    for (unsigned extra = cuts + kLeastExtra; extra > 0 && is_left_stuck != is_right_stuck; --extra) {
+        if (is_left_stuck ? right.size == 1 : left.size == 1) {
+            break;
+        }
+        if (is_left_stuck) {
+            is_right_stuck = !cutter_.cut_one<Side::Right>(space, limit, right, s);
+        } else {
+            is_left_stuck = !cutter_.cut_one<Side::Left>(space, limit, left, s);
+        }
+    }
+    if (is_left_stuck && is_right_stuck) {
+        return Outcome::BothStuck;
+    }
+    return is_left_stuck ? Outcome::LeftStuck : Outcome::RightStuck;
+}
 
 template <FaceCriterion C>
 bool WedgeSearch::find(const SearchSpace<C>& space, MeasureLimit& limit, FaceId face, unsigned anchor,
@@ -45,8 +88,9 @@ bool WedgeSearch::find(const SearchSpace<C>& space, MeasureLimit& limit, FaceId 
     const VertexId q = mesh.vertex(face, anchor);
     VertexId wedge_right = mesh.origin(h);
     VertexId wedge_left = mesh.vertex(face, previous_corner(anchor));
-    left_.start(q, wedge_left, half_edge(face, previous_corner(anchor)));
-    right_.start(q, wedge_right, half_edge(face, anchor));
+    cutter_.clear();
+    EarCutter::Chain left = cutter_.start(q, wedge_left, half_edge(face, previous_corner(anchor)));
+    EarCutter::Chain right = cutter_.start(q, wedge_right, half_edge(face, anchor));
     do {
         const HalfEdgeId t = mesh.twin(h);
         refill_.slots.push_back(face_of(t));
@@ -55,40 +99,37 @@ bool WedgeSearch::find(const SearchSpace<C>& space, MeasureLimit& limit, FaceId 
         const VertexId s = mesh.origin(of_left);
         const bool is_left_outside = space.orient(q, wedge_left, s) >= 0;
         const bool is_right_outside = !is_left_outside && space.orient(q, wedge_right, s) <= 0;
+        left.tip_edge = Across::rim(of_left);
+        right.tip_edge = Across::rim(of_right);
         bool goes_left = is_left_outside;
+        ++visits_;
         if (is_left_outside) {
-            left_.cut(space, limit, s, Across::rim(of_left), 1);
+            cutter_.cut<Side::Left>(space, limit, left, s, 1);
         } else if (is_right_outside) {
-            right_.cut(space, limit, s, Across::rim(of_right), 1);
+            cutter_.cut<Side::Right>(space, limit, right, s, 1);
         } else {
             ++candidates_;
-            const auto left_mark = left_.mark();
-            const auto right_mark = right_.mark();
-            const bool is_left_filled = left_.cut(space, limit, s, Across::rim(of_left), 1);
-            const bool is_right_filled = right_.cut(space, limit, s, Across::rim(of_right), 1);
-            if (is_left_filled && is_right_filled) {
-                refill_.join(left_, right_);
-                return true;
-            }
-            if (!is_left_filled && !is_right_filled) {
-                return false;  // nothing is left of the wedge
-            }
-            goes_left = !is_left_filled;
-            if (goes_left) {
-                wedge_left = s;
-                right_.restore(right_mark);
-            } else {
-                wedge_right = s;
-                left_.restore(left_mark);
+            const EarCutter::Chain left_before = left;
+            const EarCutter::Chain right_before = right;
+            switch (cut_both(space, limit, left, right, s)) {
+                case Outcome::Filled:
+                    cutter_.join(left, right, refill_.faces);
+                    return true;
+                case Outcome::BothStuck:
+                    return false;  // nothing is left of the wedge
+                case Outcome::LeftStuck:
+                    goes_left = true;
+                    wedge_left = s;
+                    right = right_before;
+                    break;
+                case Outcome::RightStuck:
+                    wedge_right = s;
+                    left = left_before;
+                    break;
             }
         }
-        if (goes_left) {
-            left_.push(s);
-            h = of_right;
-        } else {
-            right_.push(s);
-            h = of_left;
-        }
+        cutter_.push(goes_left ? left : right, s);
+        h = goes_left ? of_right : of_left;
     } while (reach() <= horizon && space.may_cross(h, limit.value()));
     return false;
 }
