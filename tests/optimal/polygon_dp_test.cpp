@@ -296,6 +296,60 @@ TEST_SUITE("optimal/polygon_dp") {
         CHECK_FALSE(triangulate_polygon(Ring{{0, 0}, {1, 0}, {0, 1}}, never).has_value());
     }
 
+    TEST_CASE("a table that grew and shrank knows the same as a new one") {
+        for (int seed = 0; seed < cases(40); ++seed) {
+            CAPTURE(seed);
+            Random random(static_cast<std::uint64_t>(seed));
+            Ring keys;
+            for (int i = 0; i < 12; ++i) {
+                keys.push_back({random.key(50), random.key(50)});
+            }
+            const Ring ring = random_ring(random, delaunay_tin(keys), 7);
+            const auto last = static_cast<std::uint32_t>(ring.size() - 1);
+            for (const PolygonCost cost : {PolygonCost::Maximum, PolygonCost::Sum}) {
+                const RingMeasure measure = random_measure(static_cast<std::uint64_t>(seed), 30);
+                PolygonTable table(measure, cost);
+                for (int turn = 0; turn < 12; ++turn) {
+                    table.truncate(
+                        static_cast<std::size_t>(random.integer(0, static_cast<std::int64_t>(table.size()))));
+                    // What was learnt of other vertices must not stay.
+                    table.push_back({random.key(50), random.key(50)});
+                    if (table.size() > 2) {
+                        static_cast<void>(table.cost(0, static_cast<std::uint32_t>(table.size() - 1)));
+                    }
+                    table.truncate(table.size() - 1);
+                    while (table.size() < ring.size()) {
+                        table.push_back(ring[table.size()]);
+                    }
+                    const auto fresh = triangulate_polygon(ring, measure, cost);
+                    REQUIRE(table.cost(0, last) == (fresh ? fresh->cost : kInfinity));
+                    if (fresh) {
+                        REQUIRE(table.faces(0, last) == fresh->faces);
+                    }
+                }
+            }
+        }
+    }
+
+    TEST_CASE("a measure of two infinities asks whether there is a triangulation") {
+        for (int seed = 0; seed < cases(200); ++seed) {
+            CAPTURE(seed);
+            Random random(static_cast<std::uint64_t>(seed));
+            const Ring ring = random_ring(random, delaunay_tin(grid_keys(4, 4)), 6);
+            const RingMeasure numbers = random_measure(static_cast<std::uint64_t>(seed), 40);
+            const RingMeasure infinities = [&numbers](auto i, auto k, auto j) {
+                return numbers(i, k, j) < kInfinity ? -kInfinity : kInfinity;
+            };
+            const auto result = triangulate_polygon(ring, infinities);
+            CHECK(result.has_value() == triangulate_polygon(ring, numbers).has_value());
+            if (result) {
+                CHECK(result->cost == -kInfinity);
+                CHECK(is_tiling(ring, result->faces));
+                CHECK(cost_of(result->faces, numbers, PolygonCost::Maximum) < kInfinity);
+            }
+        }
+    }
+
     TEST_CASE("it can be stopped") {
         const Ring ring{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
         CHECK_THROWS_AS(triangulate_polygon(

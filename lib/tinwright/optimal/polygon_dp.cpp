@@ -32,7 +32,10 @@ double PolygonTable::measure(std::uint32_t i, std::uint32_t k, std::uint32_t j) 
         return kInfinity;
     }
     const double value = measure_(i, k, j);
-    return std::isnan(value) ? kInfinity : value;
+    if (std::isnan(value)) {
+        return kInfinity;
+    }
+    return value;
 }
 
 /// Whether something with a part of this cost cannot be less than what was found. What is joined makes a
@@ -42,7 +45,7 @@ bool PolygonTable::is_hopeless(double cost, const Part& best) const {
 }
 
 void PolygonTable::begin(std::uint32_t i, std::uint32_t j) {
-    searches_.push_back({i, j, i + 1, {kInfinity, 0}, 0, false});
+    searches_.push_back({.i = i, .j = j, .k = i + 1, .best = {kInfinity, 0}});
 }
 
 /// Goes on with a search until it is finished. If it needs another part first, begins with that one, and

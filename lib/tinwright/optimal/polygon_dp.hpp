@@ -66,12 +66,12 @@ class PolygonTable {
     };
     /// A part that is being worked out, its face at the line from j to i having its third corner at k.
     struct Search {
-        std::uint32_t i;
-        std::uint32_t j;
-        std::uint32_t k;
+        std::uint32_t i = 0;
+        std::uint32_t j = 0;
+        std::uint32_t k = 0;
         Part best;
-        double measure;
-        bool is_measured;
+        double measure = 0;
+        bool is_measured = false;
     };
 
     [[nodiscard]] static std::size_t index(std::uint32_t i, std::uint32_t j) {
