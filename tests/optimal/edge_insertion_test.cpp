@@ -191,4 +191,14 @@ TEST_SUITE("optimal/edge_insertion") {
             }
         }
     }
+
+    TEST_CASE("scope above takes faces that are worse than the stop, not those that are as bad") {
+        // Four faces around (2, 1); their worst slope, 2, is the same number as a report and as a measure.
+        const Tin start = tin_of_faces({{{0, 0}, 0}, {{4, 0}, 8}, {{4, 4}, 8}, {{0, 4}, 0}, {{2, 1}, 4}},
+                                       {0, 1, 4, 1, 2, 4, 2, 3, 4, 3, 0, 4});
+        REQUIRE(find_worst(start, Criterion::Slope).all == 2);
+        Tin tin = start;
+        CHECK(optimize_to({Scope::Kind::Above, 2.0}, Criterion::Slope, tin).tries == 0);
+        CHECK(optimize_to({Scope::Kind::Above, 1.999}, Criterion::Slope, tin).tries > 0);
+    }
 }
