@@ -166,7 +166,9 @@ TEST_SUITE("optimal/edge_insertion_stopping") {
                 REQUIRE(is_sound(tin));
                 REQUIRE(measures_of(tin, criterion) <= measures_of(start, criterion));
                 REQUIRE((report.insertions > 0 || scope.kind == Scope::Kind::Max));
-                REQUIRE(optimize_to(scope, criterion, tin).insertions == 0);
+                if (scope.kind != Scope::Kind::Top) {  // whose stop is another for the faces there are now
+                    REQUIRE(optimize_to(scope, criterion, tin).insertions == 0);
+                }
                 // All scopes agree on the worst face.
                 worst = scope.kind == Scope::Kind::Vector ? report.after.all : worst;
                 REQUIRE(are_close(report.after.all, worst));
