@@ -146,13 +146,19 @@ Points sea_points(std::size_t count) {
 }
 
 Points facing_points(std::size_t count) {
+    constexpr double kLength = 1e7;
+    constexpr double kDistance = 1e6;
     Random random(18);
-    const double spacing = 2e7 / static_cast<double>(count);
-    return on_curve(17, count, [&random, spacing](std::size_t i) {
+    const double spacing = 2 * kLength / static_cast<double>(count);
+    Points points = on_curve(17, count, [&random, spacing](std::size_t i) {
         // Spacings that vary, or everything ties.
         const double along = static_cast<double>(i / 2) + 0.3 * random.real();
-        return tinwright::Point2{spacing * along, i % 2 == 0 ? 0 : 1e6};
+        return tinwright::Point2{spacing * along, i % 2 == 0 ? 0 : kDistance};
     });
+    for (Point3& p : points) {
+        p.z += kDistance * std::sin(2 * std::numbers::pi * p.x / kLength + (p.y == 0 ? 0 : 2));
+    }
+    return points;
 }
 
 Points square_points(std::size_t count) {

@@ -24,7 +24,8 @@ Points convex_points(std::size_t count);
 Points cliff_points(std::size_t count);
 /// The fractal terrain under a sea: two thirds lie at level 0.
 Points sea_points(std::size_t count);
-/// Two straight rows that face each other across a tenth of their length; z is random.
+/// Two straight rows that face each other across a tenth of their length, each a wave of its own phase: what
+/// is level with a sample lies far along the other row.
 Points facing_points(std::size_t count);
 /// A square grid of whole numbers on the rolling terrain, row by row.
 Points square_points(std::size_t count);
