@@ -108,26 +108,32 @@ class Engine {
     bool improve(FaceId f, unsigned horizon = internal::kNoHorizon);
     void commit();
     void descend(double stop, bool only_worst);
+    void prefetch(const std::vector<QueuedFace>& list, std::size_t place) const;
     void descend_to_worst();
-    void sweep_until_stable();
-    void sweep(unsigned horizon);
+    void optimize_all();
     [[nodiscard]] bool has_run_away() const;
-    void forget_tries_near(const std::vector<FaceId>& changed);
+    void sweep();
+    void forget_tries_near(double limit);
 
     /// A try of a face that failed.
     struct FailedTry {
-        std::uint8_t reach = kNone;  ///< how deep it looked, `kFar` if that deep or deeper
+        std::uint8_t reach = kNone;  ///< how deep it looked
         std::uint8_t ties = 0;       ///< measures met that equal the face's; 255 if as many or more
     };
     static constexpr std::uint8_t kNone = 0;  ///< there was none, or it does not count any more
-    static constexpr std::uint8_t kFar = 255;
+    static constexpr std::uint8_t kUnseen = 255;
+    /// How deep sweeps look. Most improvements are near, but most time would go into looking far.
+    static constexpr unsigned kHorizon = 8;
 
     TriangleMesh& mesh_;
     std::size_t vertex_count_;
     const C& criterion_;
     Stopwatch stopwatch_;
     LargeVector<double> measures_;
-    LargeVector<FailedTry> tries_;  ///< the last one of each slot, for sweeps
+    LargeVector<FailedTry> tries_;        ///< those that stand, one a slot; empty if none are kept
+    LargeVector<std::uint8_t> distance_;  ///< scratch of `forget_tries_near`
+    std::vector<FaceId> changed_;
+    std::vector<FaceId> seen_;
     internal::SearchSpace<C> space_;
     typename SearchFor<C>::Type search_;
     OptimizeReport report_;
@@ -201,9 +207,9 @@ bool Engine<C>::improve(FaceId f, unsigned horizon) {
             return true;
         }
         reach = std::max(reach, search_.reach());
-        is_cut_short = is_cut_short || search_.reach() > horizon;
+        is_cut_short = is_cut_short || search_.reach() > kHorizon;
     }
-    failed_.reach = is_cut_short ? kNone : static_cast<std::uint8_t>(std::min<unsigned>(reach, kFar));
+    failed_.reach = is_cut_short ? kNone : static_cast<std::uint8_t>(std::min<unsigned>(reach, kHorizon));
     failed_.ties = static_cast<std::uint8_t>(std::min<std::size_t>(limit.ties(), 255));
     return false;
 }
@@ -219,39 +225,79 @@ void Engine<C>::commit() {
 }
 
 /// Improves faces worst first down to the measure `stop`; with `only_worst`, until one cannot be improved.
+/// What has no anchor is never queued [tan1993, Lemma 4.5], nor is a face whose failed try stands.
 template <FaceCriterion C>
 void Engine<C>::descend(double stop, bool only_worst) {
-    std::vector<QueuedFace> entries;
+    std::vector<QueuedFace> at_start;
+    const auto is_hopeful = [this, stop](FaceId f) {
+        const auto& [a, b, c] = mesh_.face(f).vertex;
+        return measures_[f.value] >= stop && (tries_.empty() || tries_[f.value].reach == kNone) &&
+               criterion_.anchors(a, b, c) != 0;
+    };
     for (std::uint32_t f = 0; f < measures_.size(); ++f) {
-        if (measures_[f] >= stop && measures_[f] != kInfinity) {
-            entries.push_back({measures_[f], {f}});
+        if (measures_[f] != kInfinity && is_hopeful({f})) {
+            at_start.push_back({measures_[f], {f}});
         }
     }
-    const std::size_t at_start = entries.size();
-    std::priority_queue<QueuedFace> queue(std::less<QueuedFace>(), std::move(entries));
+    std::sort(at_start.begin(), at_start.end(),
+              [](const QueuedFace& a, const QueuedFace& b) { return b < a; });
+    std::priority_queue<QueuedFace> added;
     std::size_t done = 0;
-    while (!queue.empty()) {
-        const QueuedFace worst = queue.top();
-        queue.pop();
+    while (done < at_start.size() || !added.empty()) {
+        const bool is_added = done == at_start.size() || (!added.empty() && at_start[done] < added.top());
+        const QueuedFace worst = is_added ? added.top() : at_start[done];
+        if (is_added) {
+            added.pop();
+        } else {
+            prefetch(at_start, ++done);
+        }
         if (measures_[worst.face.value] != worst.measure) {
             continue;  // its face is gone
         }
-        if (stopwatch_.is_over([&] { return std::min(1.0, double(done) / double(at_start)); })) {
+        if (stopwatch_.is_over(
+                [&] { return static_cast<double>(done) / static_cast<double>(at_start.size()); })) {
             return;
         }
-        ++done;
         if (improve(worst.face)) {
-            for (const FaceId slot : search_.refill().slots) {
-                if (measures_[slot.value] >= stop) {
-                    queue.push({measures_[slot.value], slot});
+            changed_.assign(search_.refill().slots.begin(), search_.refill().slots.end());
+            if (!tries_.empty()) {
+                forget_tries_near(worst.measure);
+            }
+            for (const FaceId face : changed_) {
+                if (is_hopeful(face)) {
+                    added.push({measures_[face.value], face});
                 }
             }
-        } else {
-            ++report_.frozen;
-            report_.ties += failed_.ties;
-            if (only_worst) {
-                return;
-            }
+            continue;
+        }
+        ++report_.frozen;
+        report_.ties += failed_.ties;
+        if (only_worst) {
+            return;
+        }
+    }
+    // Whatever is left cannot be improved, be it tried or without an anchor.
+    const auto left = std::count_if(measures_.begin(), measures_.end(), [stop](double measure) {
+        return measure >= stop && measure != kInfinity;
+    });
+    report_.frozen = only_worst ? (left > 0 ? 1 : 0) : static_cast<std::size_t>(left);
+}
+
+/// Fetches what the tries of faces some places down the list will read: they lie all over memory.
+template <FaceCriterion C>
+void Engine<C>::prefetch(const std::vector<QueuedFace>& list, std::size_t place) const {
+    constexpr std::size_t kFar = 12;
+    constexpr std::size_t kNear = 6;
+    if (place + kFar < list.size()) {
+        __builtin_prefetch(&mesh_.face(list[place + kFar].face));
+        __builtin_prefetch(&measures_[list[place + kFar].face.value]);
+    }
+    if (place + kNear < list.size()) {
+        const TriangleMesh::Face& face = mesh_.face(list[place + kNear].face);
+        for (unsigned i = 0; i < 3; ++i) {
+            __builtin_prefetch(&space_.keys[face.vertex[i].value]);
+            __builtin_prefetch(&mesh_.face(face_of(face.twin[i])));
+            __builtin_prefetch(&measures_[face_of(face.twin[i]).value]);
         }
     }
 }
@@ -261,40 +307,32 @@ template <FaceCriterion C>
 void Engine<C>::descend_to_worst() {
     constexpr std::size_t kFirst = 256;
     constexpr std::size_t kGrowth = 16;
-    for (std::size_t rank = kFirst; report_.frozen == 0; rank *= kGrowth) {
+    for (std::size_t rank = kFirst; report_.frozen == 0 && !stopwatch_.has_stopped(); rank *= kGrowth) {
         descend(measure_of_rank(rank), true);
-        if (stopwatch_.has_stopped()) {
-            return;
-        }
     }
 }
 
-/// Improves faces, each where it is met, until no face can be improved. That order is not the theorems', nor
-/// are their bounds on the number of steps; but every step lowers the sorted vector, and where no face can be
-/// improved the optimum is reached (docs/criteria.md, "Any order"). It is several times faster than worst
-/// first, which wanders through all memory.
+/// Improves faces until none can be. At first each where it is met and as far as can be seen from near: that
+/// order is not the theorems', but it does not wander through all memory, every step lowers the sorted
+/// vector, and where in the end no face can be improved the optimum is reached (docs/criteria.md, "Any
+/// order"). Then, worst first, those that have not been seen to fail since anything near them changed.
 template <FaceCriterion C>
-void Engine<C>::sweep_until_stable() {
+void Engine<C>::optimize_all() {
     tries_.assign(measures_.size(), FailedTry{});
-    if constexpr (WeakCriterion<C>) {
-        // Most improvements are near, but most of the time goes into looking far: that is left for later.
-        constexpr unsigned kNear = 4;
-        sweep(kNear);
+    distance_.assign(measures_.size(), kUnseen);
+    // After two sweeps few faces are still to be improved.
+    for (int i = 0; i < 2 && !has_run_away() && !stopwatch_.has_stopped(); ++i) {
+        sweep();
     }
-    std::size_t insertions = 0;
-    do {
-        insertions = report_.insertions;
-        sweep(internal::kNoHorizon);
-    } while (insertions != report_.insertions && !has_run_away() && !stopwatch_.has_stopped());
-    if (has_run_away() && !stopwatch_.has_stopped()) {
-        descend(-kInfinity, false);
+    if (has_run_away()) {
+        tries_.clear();
+    }
+    if (stopwatch_.has_stopped()) {
         return;
     }
-    for (std::uint32_t f = 0; f < tries_.size(); ++f) {
-        if (mesh_.is_terrain({f}) && tries_[f].reach != kNone) {
-            ++report_.frozen;
-            report_.ties += tries_[f].ties;
-        }
+    descend(-kInfinity, false);
+    for (const FailedTry& failed : tries_) {
+        report_.ties += failed.ties;
     }
 }
 
@@ -309,12 +347,11 @@ bool Engine<C>::has_run_away() const {
            search_.visits() > kVisitsPerFace * measures_.size() + kSmall;
 }
 
-/// Tries every face that has to be, and the new ones where a try succeeds. Afterwards a failed try stands
-/// unless what it looked at has changed since.
+/// Tries every face without a failed try that stands, and the new ones where a try succeeds.
 template <FaceCriterion C>
-void Engine<C>::sweep(unsigned horizon) {
-    std::vector<FaceId> changed;
+void Engine<C>::sweep() {
     std::vector<FaceId> pending;
+    changed_.clear();
     for (std::uint32_t f = 0; f < measures_.size(); ++f) {
         if (tries_[f].reach != kNone || measures_[f] == kInfinity) {
             continue;
@@ -323,62 +360,58 @@ void Engine<C>::sweep(unsigned horizon) {
         while (!pending.empty()) {
             const FaceId face = pending.back();
             pending.pop_back();
-            if (has_run_away() || stopwatch_.is_over([&] { return double(f) / double(measures_.size()); })) {
+            if (has_run_away() || stopwatch_.is_over([&] {
+                    return static_cast<double>(f) / static_cast<double>(measures_.size());
+                })) {
                 return;
             }
-            if (!improve(face, horizon)) {
+            if (!improve(face, kHorizon)) {
                 tries_[face.value] = failed_;
                 continue;
             }
             for (const FaceId slot : search_.refill().slots) {
-                tries_[slot.value] = {};
-                changed.push_back(slot);
+                changed_.push_back(slot);
                 pending.push_back(slot);
             }
         }
     }
-    forget_tries_near(changed);
+    forget_tries_near(kInfinity);
 }
 
-/// Forgets the tries that looked as deep as the nearest changed face is away, in steps from face to face: no
-/// other can have seen a change.
+/// Forgets the tries of faces of measure `limit` and below that looked as deep as the nearest changed face is
+/// away, in steps from face to face: no other can have seen a change. Adds their faces to `changed_`.
 template <FaceCriterion C>
-void Engine<C>::forget_tries_near(const std::vector<FaceId>& changed) {
-    constexpr std::uint8_t kUnseen = 255;
-    LargeVector<std::uint8_t> distance(measures_.size(), kUnseen);
-    std::vector<FaceId> level;
-    for (const FaceId f : changed) {
-        if (distance[f.value] == kUnseen) {
-            distance[f.value] = 0;
-            tries_[f.value] = {};
-            level.push_back(f);
+void Engine<C>::forget_tries_near(double limit) {
+    std::vector<FaceId>& seen = seen_;
+    seen.clear();
+    const auto see = [&](FaceId f, std::uint8_t steps) {
+        if (distance_[f.value] != kUnseen || measures_[f.value] == kInfinity) {
+            return false;
         }
+        distance_[f.value] = steps;
+        seen.push_back(f);
+        return true;
+    };
+    for (const FaceId f : changed_) {
+        see(f, 0);
+        tries_[f.value] = {};
     }
-    if (level.empty()) {
-        return;
-    }
-    std::vector<FaceId> next_level;
-    for (std::uint8_t steps = 1; !level.empty() && steps < kFar; ++steps) {
-        next_level.clear();
-        for (const FaceId f : level) {
-            for (const HalfEdgeId twin : mesh_.face(f).twin) {
+    std::size_t level_begin = 0;
+    for (std::uint8_t steps = 1; steps <= kHorizon; ++steps) {
+        const std::size_t level_end = seen.size();
+        for (std::size_t i = level_begin; i < level_end; ++i) {
+            for (const HalfEdgeId twin : mesh_.face(seen[i]).twin) {
                 const FaceId g = face_of(twin);
-                if (distance[g.value] != kUnseen || measures_[g.value] == kInfinity) {
-                    continue;
-                }
-                distance[g.value] = steps;
-                next_level.push_back(g);
-                if (tries_[g.value].reach >= steps) {
+                if (see(g, steps) && tries_[g.value].reach >= steps && measures_[g.value] <= limit) {
                     tries_[g.value] = {};
+                    changed_.push_back(g);
                 }
             }
         }
-        std::swap(level, next_level);
+        level_begin = level_end;
     }
-    for (FailedTry& failed : tries_) {
-        if (failed.reach == kFar) {
-            failed = {};
-        }
+    for (const FaceId f : seen) {
+        distance_[f.value] = kUnseen;
     }
 }
 
@@ -391,7 +424,7 @@ OptimizeReport Engine<C>::run(const Scope& scope) {
             descend_to_worst();
             break;
         case Scope::Kind::Vector:
-            sweep_until_stable();
+            optimize_all();
             break;
         case Scope::Kind::Top: {
             const auto faces = static_cast<double>(mesh_.count_terrain());
