@@ -66,7 +66,7 @@ struct OptimizeReport {
 ///
 /// `tin`: at least one terrain face.
 /// Cost: seconds for 10^6 samples, growing about linearly (docs/benchmarks.md); at worst quadratic for angle
-/// and height. At most 48 bytes a vertex of scratch.
+/// and height. At most 64 bytes a vertex of scratch.
 OptimizeReport optimize(Tin& tin, const OptimizeOptions& options);
 
 }  // namespace tinwright
