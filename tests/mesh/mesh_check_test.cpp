@@ -77,6 +77,9 @@ TEST_SUITE("mesh/mesh_check") {
         const MeshCheckReport report = report_on([](auto& faces) { faces[1].marks = 16 + 8; });
         CHECK(report.count == 1);
         CHECK(names(report, 6, "face 1: unknown marks 24"));
+        const MeshCheckReport scratch = report_on([](auto& faces) { faces[1].scratch = 1; });
+        CHECK(scratch.count == 1);
+        CHECK(names(scratch, 6, "face 1: scratch is not cleared"));
     }
 
     TEST_CASE("M7: two edges between the same vertices in one turn are found") {

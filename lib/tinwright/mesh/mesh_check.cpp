@@ -64,6 +64,9 @@ class MeshAudit {
             report(6, half_edge(f, 0),
                    [&] { return name_of(f) + ": unknown marks " + std::to_string(face.marks); });
         }
+        if (face.scratch != 0) {
+            report(6, half_edge(f, 0), [&] { return name_of(f) + ": scratch is not cleared"; });
+        }
     }
 
     [[nodiscard]] bool is_half_edge(HalfEdgeId h) const {

@@ -12,6 +12,8 @@
 #include <tbb/parallel_for.h>
 
 #include "tinwright/criteria/visit_criterion.hpp"
+#include "tinwright/geometry/decimal.hpp"
+#include "tinwright/geometry/error.hpp"
 #include "tinwright/geometry/large_vector.hpp"
 #include "tinwright/mesh/border.hpp"
 #include "tinwright/mesh/mesh_edit.hpp"
@@ -35,9 +37,13 @@ class Stopwatch {
     }
     [[nodiscard]] StoppedBy stopped_by() const { return stopped_by_; }
     [[nodiscard]] bool has_stopped() const { return stopped_by_ != StoppedBy::Finished; }
-    /// Whether to stop; `fraction` gives how much is done.
-    template <class Fraction>
-    bool is_over(const Fraction& fraction) {
+    /// What follows takes the progress from `begin` to `end`.
+    void set_stage(double begin, double end) {
+        begin_ = begin;
+        end_ = end;
+    }
+    /// Whether to stop; `done` of `all` is what the stage has come to.
+    bool is_over(std::size_t done, std::size_t all) {
         // A clock is slow next to most tries.
         constexpr unsigned kTriesBetween = 64;
         if (stopped_by_ != StoppedBy::Finished) {
@@ -46,8 +52,10 @@ class Stopwatch {
         if (calls_++ % kTriesBetween == 0) {
             if (budget_ && seconds() >= *budget_) {
                 stopped_by_ = StoppedBy::Budget;
-            } else if (progress_ && !progress_(fraction())) {
-                stopped_by_ = StoppedBy::Interrupt;
+            } else if (progress_) {
+                const double part = static_cast<double>(std::min(done, all)) / static_cast<double>(all);
+                const bool goes_on = progress_(begin_ + (end_ - begin_) * part);
+                stopped_by_ = goes_on ? StoppedBy::Finished : StoppedBy::Interrupt;
             }
         }
         return stopped_by_ != StoppedBy::Finished;
@@ -59,6 +67,8 @@ class Stopwatch {
     Clock::time_point start_;
     std::optional<double> budget_;
     const Progress& progress_;
+    double begin_ = 0;
+    double end_ = 1;
     unsigned calls_ = 0;
     StoppedBy stopped_by_ = StoppedBy::Finished;
 };
@@ -118,12 +128,15 @@ class Engine {
     /// A try of a face that failed.
     struct FailedTry {
         std::uint8_t reach = kNone;  ///< how deep it looked
-        std::uint8_t ties = 0;       ///< measures met that equal the face's; 255 if as many or more
+        std::uint16_t ties = 0;      ///< measures met that equal the face's, or the greatest number
     };
-    static constexpr std::uint8_t kNone = 0;  ///< there was none, or it does not count any more
+    static constexpr std::uint8_t kNone = 0;  ///< there was none, or what it saw has changed
     static constexpr std::uint8_t kUnseen = 255;
     /// How deep sweeps look. Most improvements are near, but most time would go into looking far.
     static constexpr unsigned kHorizon = 8;
+    /// How deep a try of a sweep may have looked to stand afterwards; what looked deeper is tried again
+    /// rather than watched.
+    static constexpr unsigned kStanding = 5;
 
     TriangleMesh& mesh_;
     std::size_t vertex_count_;
@@ -197,7 +210,6 @@ bool Engine<C>::improve(FaceId f, unsigned horizon) {
     ++report_.tries;
     internal::MeasureLimit limit(measures_[f.value]);
     unsigned reach = 1;
-    bool is_cut_short = false;
     for (unsigned corner = 0; corner < 3; ++corner) {
         if ((anchors >> corner & 1U) == 0) {
             continue;
@@ -207,10 +219,9 @@ bool Engine<C>::improve(FaceId f, unsigned horizon) {
             return true;
         }
         reach = std::max(reach, search_.reach());
-        is_cut_short = is_cut_short || search_.reach() > kHorizon;
     }
-    failed_.reach = is_cut_short ? kNone : static_cast<std::uint8_t>(std::min<unsigned>(reach, kHorizon));
-    failed_.ties = static_cast<std::uint8_t>(std::min<std::size_t>(limit.ties(), 255));
+    failed_.reach = static_cast<std::uint8_t>(std::min(reach, kHorizon + 1));
+    failed_.ties = static_cast<std::uint16_t>(std::min<std::size_t>(limit.ties(), 0xFFFF));
     return false;
 }
 
@@ -254,8 +265,7 @@ void Engine<C>::descend(double stop, bool only_worst) {
         if (measures_[worst.face.value] != worst.measure) {
             continue;  // its face is gone
         }
-        if (stopwatch_.is_over(
-                [&] { return static_cast<double>(done) / static_cast<double>(at_start.size()); })) {
+        if (stopwatch_.is_over(done, at_start.size())) {
             return;
         }
         if (improve(worst.face)) {
@@ -321,14 +331,21 @@ void Engine<C>::optimize_all() {
     tries_.assign(measures_.size(), FailedTry{});
     distance_.assign(measures_.size(), kUnseen);
     // After two sweeps few faces are still to be improved.
-    for (int i = 0; i < 2 && !has_run_away() && !stopwatch_.has_stopped(); ++i) {
-        sweep();
+    stopwatch_.set_stage(0, 0.4);
+    sweep();
+    tries_.assign(measures_.size(), FailedTry{});  // too much has changed to find those that stand
+    stopwatch_.set_stage(0.4, 0.5);
+    sweep();
+    forget_tries_near(kInfinity);
+    stopwatch_.set_stage(0.5, 1);
+    if (stopwatch_.has_stopped()) {
+        return;
+    }
+    for (FailedTry& failed : tries_) {
+        failed = failed.reach <= kStanding ? failed : FailedTry{};
     }
     if (has_run_away()) {
         tries_.clear();
-    }
-    if (stopwatch_.has_stopped()) {
-        return;
     }
     descend(-kInfinity, false);
     for (const FailedTry& failed : tries_) {
@@ -360,9 +377,7 @@ void Engine<C>::sweep() {
         while (!pending.empty()) {
             const FaceId face = pending.back();
             pending.pop_back();
-            if (has_run_away() || stopwatch_.is_over([&] {
-                    return static_cast<double>(f) / static_cast<double>(measures_.size());
-                })) {
+            if (has_run_away() || stopwatch_.is_over(f, measures_.size())) {
                 return;
             }
             if (!improve(face, kHorizon)) {
@@ -375,7 +390,6 @@ void Engine<C>::sweep() {
             }
         }
     }
-    forget_tries_near(kInfinity);
 }
 
 /// Forgets the tries of faces of measure `limit` and below that looked as deep as the nearest changed face is
@@ -385,7 +399,7 @@ void Engine<C>::forget_tries_near(double limit) {
     std::vector<FaceId>& seen = seen_;
     seen.clear();
     const auto see = [&](FaceId f, std::uint8_t steps) {
-        if (distance_[f.value] != kUnseen || measures_[f.value] == kInfinity) {
+        if (distance_[f.value] != kUnseen) {
             return false;
         }
         distance_[f.value] = steps;
@@ -397,7 +411,7 @@ void Engine<C>::forget_tries_near(double limit) {
         tries_[f.value] = {};
     }
     std::size_t level_begin = 0;
-    for (std::uint8_t steps = 1; steps <= kHorizon; ++steps) {
+    for (std::uint8_t steps = 1; steps <= kStanding; ++steps) {
         const std::size_t level_end = seen.size();
         for (std::size_t i = level_begin; i < level_end; ++i) {
             for (const HalfEdgeId twin : mesh_.face(seen[i]).twin) {
@@ -446,9 +460,25 @@ OptimizeReport Engine<C>::run(const Scope& scope) {
     return report_;
 }
 
+/// Squares of slopes must not overflow.
+void check_elevations(const Tin& tin) {
+    constexpr double kGreatest = 1e100;
+    const auto extreme =
+        std::find_if(tin.z.begin(), tin.z.end(), [](double z) { return !(std::abs(z) <= kGreatest); });
+    if (extreme == tin.z.end()) {
+        return;
+    }
+    const auto vertex = static_cast<std::size_t>(extreme - tin.z.begin());
+    throw InputError("the elevation " + decimal_text(*extreme) + " at " +
+                         location_text(tin.lattice.position(tin.keys[vertex])) +
+                         " is too great to compare faces by; remove the sample, or stay within 1e100",
+                     {tin.sample[vertex]});
+}
+
 }  // namespace
 
 OptimizeReport optimize(Tin& tin, const OptimizeOptions& options) {
+    check_elevations(tin);
     return visit_criterion(options.criterion, tin, [&](const FaceCriterion auto& criterion) {
         return Engine(tin, criterion, options).run(options.scope);
     });

@@ -25,10 +25,10 @@ struct Scope {
 
 struct OptimizeOptions {
     Criterion criterion = Criterion::Slope;
-    Scope scope;
-    std::optional<double> budget_seconds;  ///< stop after this time
+    Scope scope = {};
+    std::optional<double> budget_seconds = {};  ///< stop after this time
     /// Asked often, with the fraction done as far as it can be told; false stops the work like a budget.
-    Progress progress;
+    Progress progress = {};
 };
 
 /// What is known of an optimum.
@@ -64,7 +64,7 @@ struct OptimizeReport {
 /// scope vector is unique, whatever the faces at the start. Stopped early, `tin` is a valid triangulation
 /// that is better than at the start.
 ///
-/// `tin`: at least one terrain face.
+/// `tin`: at least one terrain face. Throws InputError, with the sample, for an elevation beyond 1e100.
 /// Cost: seconds for 10^6 samples, growing about linearly (docs/benchmarks.md); at worst quadratic for angle
 /// and height. At most 64 bytes a vertex of scratch.
 OptimizeReport optimize(Tin& tin, const OptimizeOptions& options);
