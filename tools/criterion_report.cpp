@@ -105,7 +105,8 @@ std::string proof_line(const CriterionReport& report) {
         return "not proven optimal: stopped by " +
                std::string(report.stopped_by == "budget" ? "the budget" : "an interrupt");
     }
-    return "not proven optimal: the scope ends before a face that cannot be improved";
+    return "not proven optimal: the scope ends before a face that cannot be improved; choose --scope max for "
+           "a proof";
 }
 
 std::string counted(std::size_t count, const char* singular, const char* plural) {

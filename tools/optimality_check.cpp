@@ -78,6 +78,9 @@ std::string promise_text(const OptimalityReport& report) {
     if (report.scope.starts_with("above:")) {
         return "; --scope " + report.scope + " promises the faces beyond that only";
     }
+    if (report.scope.empty() && report.improvable() > 0) {
+        return "; the file does not tell that it was made for this criterion";
+    }
     return {};
 }
 
@@ -170,8 +173,9 @@ std::string optimality_verdict(const OptimalityReport& report) {
         text += (certificate.faces == 1 ? "" : std::to_string(report.improvable()) + " of ") +
                 examined_text(report) + " can be improved";
     } else {
-        text += (certificate.faces == report.faces && report.faces > 1 ? "all " : "") +
-                examined_text(report) + " cannot be improved" +
+        text += (certificate.faces == report.faces && report.faces > 1
+                     ? "none of the " + examined_text(report) + " can be improved"
+                     : examined_text(report) + " cannot be improved") +
                 (is_cut ? " by edges across up to " + counted(*report.reach, "face") : std::string()) +
                 (report.is_next_improvable ? ", the next one can" : "");
     }

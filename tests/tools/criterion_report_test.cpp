@@ -77,7 +77,8 @@ TEST_SUITE("tools/criterion_report") {
         CHECK(third_line("max", Proof::Tested, StoppedBy::Finished) ==
               "the worst face tested to be optimal; equal measures, which the theorem excludes, were met");
         CHECK(third_line("above:9", Proof::None, StoppedBy::Finished) ==
-              "not proven optimal: the scope ends before a face that cannot be improved");
+              "not proven optimal: the scope ends before a face that cannot be improved; choose --scope max "
+              "for a proof");
         CHECK(third_line("max", Proof::None, StoppedBy::Budget) ==
               "not proven optimal: stopped by the budget");
         CHECK(third_line("max", Proof::None, StoppedBy::Interrupt) ==
