@@ -114,9 +114,10 @@ std::string counted(std::size_t count, const char* singular, const char* plural)
 }
 
 std::string counts_line(const OptimizeReport& counts) {
-    return counted(counts.insertions, "edge", "edges") + " inserted, " +
-           counted(counts.tries, "face", "faces") + " tried, " + std::to_string(counts.frozen) +
-           " as good as can be, " + (counts.ties == 0 ? "no ties" : counted(counts.ties, "tie", "ties"));
+    return counted(counts.insertions, "edge", "edges") + " inserted of " + std::to_string(counts.candidates) +
+           " considered, " + counted(counts.tries, "face", "faces") + " tried, " +
+           std::to_string(counts.frozen) + " as good as can be, " +
+           (counts.ties == 0 ? "no ties" : counted(counts.ties, "tie", "ties"));
 }
 
 JsonValue proven_json(const std::string& proven) {

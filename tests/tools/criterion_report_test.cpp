@@ -24,7 +24,7 @@ OptimizeReport sample_result() {
     result.proof = Proof::Theorem;
     result.insertions = 1234;
     result.tries = 5678;
-    result.candidates = 9;
+    result.candidates = 7890;
     result.frozen = 12;
     return result;
 }
@@ -42,7 +42,7 @@ TEST_SUITE("tools/criterion_report") {
               std::vector<std::string>{
                   "slope, scope top:0.5%", "greatest slope 12.25 -> 4.5 (interior 8.5 -> 3.25)",
                   "the worst face proven optimal (theorem)",
-                  "1234 edges inserted, 5678 faces tried, 12 as good as can be, no ties"});
+                  "1234 edges inserted of 7890 considered, 5678 faces tried, 12 as good as can be, no ties"});
     }
 
     TEST_CASE("lengths have the unit of the CRS, angles are degrees") {
