@@ -18,8 +18,8 @@ namespace tinwright::internal {
 template <WeakCriterion C>
 class EmptyTriangleSearch {
   public:
-    /// As `WedgeSearch::find`. Linear in the faces in sight, plus the
-    /// length of the way to each candidate of which both faces at q are better.
+    /// As `WedgeSearch::find`. Linear in the faces in sight, plus the length of the way to each candidate of
+    /// which both faces at q are better.
     bool find(const SearchSpace<C>& space, MeasureLimit& limit, FaceId face, unsigned anchor,
               unsigned horizon = kNoHorizon);
 
@@ -27,9 +27,9 @@ class EmptyTriangleSearch {
     [[nodiscard]] std::size_t candidates() const { return candidates_; }
 
     /// How deep the last search that failed looked, 1 for the face next to the face to improve; more than the
-    /// horizon if it wanted to look deeper.
+    /// horizon if it came that far.
     [[nodiscard]] unsigned reach() const { return reach_; }
-    /// Faces looked at, by all searches.
+    /// Faces looked at, by all searches that failed.
     [[nodiscard]] std::size_t visits() const { return visits_; }
 
   private:
@@ -145,9 +145,9 @@ bool EmptyTriangleSearch<C>::find(const SearchSpace<C>& space, MeasureLimit& lim
 
 /// The polygons on both sides of the way to a node, made from those of the nearest node on it that has some.
 template <WeakCriterion C>
-EmptyTriangleSearch<C>::Polygons EmptyTriangleSearch<C>::polygons_of(const SearchSpace<C>& space,
-                                                                     MeasureLimit& limit,
-                                                                     std::uint32_t node) {
+typename EmptyTriangleSearch<C>::Polygons EmptyTriangleSearch<C>::polygons_of(const SearchSpace<C>& space,
+                                                                              MeasureLimit& limit,
+                                                                              std::uint32_t node) {
     using Across = CavityFace::Across;
     way_.clear();
     for (; nodes_[node].polygons == kNone; node = nodes_[node].parent) {
