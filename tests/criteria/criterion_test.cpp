@@ -199,6 +199,11 @@ TEST_SUITE("criteria/criterion") {
         }
     }
 
+    TEST_CASE("a right angle is not above 90 degrees") {
+        CHECK(AngleCriterion::from_report(90) == 0);
+        CHECK(AngleCriterion::to_report(0) == 90);
+    }
+
     TEST_CASE("worst measures are over terrain faces, and interior ones have no edge on the border") {
         // A hexagon around a triangle: faces 0 to 5 have an edge on the border, 6 has none.
         Tin tin = tin_of(std::vector<Key2>{

@@ -42,7 +42,7 @@ class AngleCriterion {
         if (degrees <= 0 || degrees >= 180) {
             return degrees <= 0 ? -kNone : kNone;
         }
-        return -1 / std::tan(degrees * (std::numbers::pi / 180));
+        return std::tan((degrees - 90) * (std::numbers::pi / 180));  // -cot, zero at 90
     }
 
   private:
