@@ -75,6 +75,7 @@ void MeshEditor::refill(std::span<const FaceId> slots, std::span<const CavityFac
     };
     thread_local std::vector<RimEdge> rim;  // kept for its memory; empty between calls
     rim.clear();
+    rim.reserve(3 * slots.size());  // what may throw comes before any change
     for (const FaceId slot : slots) {
         record(slot).scratch = 1;
     }

@@ -46,7 +46,8 @@ struct CavityFace {
 
 /// Replaces the faces of a cavity, a simply connected set of terrain faces, by as many others within the same
 /// rim. An edge that the cavity touches from both sides without crossing it (a crack, [tan1993, Fig. 3.1])
-/// is twice in the rim. `slots[i]` takes `faces[i]`. Constrained rim edges stay so. O(slots).
+/// is twice in the rim. `slots[i]` takes `faces[i]`. Constrained rim edges stay so. If memory runs out,
+/// nothing has changed. O(slots), once more for each crack.
 void refill_cavity(TriangleMesh& mesh, std::span<const FaceId> slots, std::span<const CavityFace> faces);
 
 }  // namespace tinwright
