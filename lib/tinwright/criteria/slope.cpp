@@ -35,6 +35,9 @@ int compare_products(const Rise& r, double a, double size_a, const Rise& s, doub
     if (std::abs(difference) > 8 * kUnit * size) {
         return internal::sign_of(difference);
     }
+    if (r.value == 0 && s.value == 0) {
+        return 0;
+    }
     if (!r.is_exact || !s.is_exact || size_a >= kExactIntegers || size_b >= kExactIntegers) {
         return kUnsure;
     }
