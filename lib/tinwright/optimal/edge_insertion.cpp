@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdint>
+#include <functional>
 #include <limits>
 #include <queue>
-#include <type_traits>
 #include <vector>
 
 #include <tbb/blocked_range.h>
@@ -131,20 +132,20 @@ class Engine {
         std::uint16_t ties = 0;      ///< measures met that equal the face's, or the greatest number
     };
     static constexpr std::uint8_t kNone = 0;  ///< there was none, or what it saw has changed
-    static constexpr std::uint8_t kUnseen = 255;
     /// How deep sweeps look. Most improvements are near, but most time would go into looking far.
     static constexpr unsigned kHorizon = 8;
     /// How deep a try of a sweep may have looked to stand afterwards; what looked deeper is tried again
     /// rather than watched.
     static constexpr unsigned kStanding = 5;
+    static_assert(kStanding <= kHorizon);  // a try cut off by the horizon reaches beyond it, and never stands
 
     TriangleMesh& mesh_;
     std::size_t vertex_count_;
     const C& criterion_;
     Stopwatch stopwatch_;
     LargeVector<double> measures_;
-    LargeVector<FailedTry> tries_;        ///< those that stand, one a slot; empty if none are kept
-    LargeVector<std::uint8_t> distance_;  ///< scratch of `forget_tries_near`
+    LargeVector<FailedTry> tries_;       ///< those that stand, one a slot; empty if none are kept
+    LargeVector<std::uint8_t> is_seen_;  ///< scratch of `forget_tries_near`, zero between calls
     std::vector<FaceId> changed_;
     std::vector<FaceId> seen_;
     internal::SearchSpace<C> space_;
@@ -329,7 +330,7 @@ void Engine<C>::descend_to_worst() {
 template <FaceCriterion C>
 void Engine<C>::optimize_all() {
     tries_.assign(measures_.size(), FailedTry{});
-    distance_.assign(measures_.size(), kUnseen);
+    is_seen_.assign(measures_.size(), 0);
     // After two sweeps few faces are still to be improved.
     stopwatch_.set_stage(0, 0.4);
     sweep();
@@ -393,30 +394,30 @@ void Engine<C>::sweep() {
 }
 
 /// Forgets the tries of faces of measure `limit` and below that looked as deep as the nearest changed face is
-/// away, in steps from face to face: no other can have seen a change. Adds their faces to `changed_`.
+/// away, in steps from face to face: no other can have seen a change. For worse faces less bad ones do not
+/// count (docs/criteria.md, Theorem 1). Adds their faces to `changed_`.
 template <FaceCriterion C>
 void Engine<C>::forget_tries_near(double limit) {
-    std::vector<FaceId>& seen = seen_;
-    seen.clear();
-    const auto see = [&](FaceId f, std::uint8_t steps) {
-        if (distance_[f.value] != kUnseen) {
+    seen_.clear();
+    const auto see = [this](FaceId f) {
+        if (is_seen_[f.value] != 0) {
             return false;
         }
-        distance_[f.value] = steps;
-        seen.push_back(f);
+        is_seen_[f.value] = 1;
+        seen_.push_back(f);
         return true;
     };
     for (const FaceId f : changed_) {
-        see(f, 0);
+        see(f);
         tries_[f.value] = {};
     }
     std::size_t level_begin = 0;
-    for (std::uint8_t steps = 1; steps <= kStanding; ++steps) {
-        const std::size_t level_end = seen.size();
+    for (unsigned steps = 1; steps <= kStanding; ++steps) {
+        const std::size_t level_end = seen_.size();
         for (std::size_t i = level_begin; i < level_end; ++i) {
-            for (const HalfEdgeId twin : mesh_.face(seen[i]).twin) {
+            for (const HalfEdgeId twin : mesh_.face(seen_[i]).twin) {
                 const FaceId g = face_of(twin);
-                if (see(g, steps) && tries_[g.value].reach >= steps && measures_[g.value] <= limit) {
+                if (see(g) && tries_[g.value].reach >= steps && measures_[g.value] <= limit) {
                     tries_[g.value] = {};
                     changed_.push_back(g);
                 }
@@ -424,8 +425,8 @@ void Engine<C>::forget_tries_near(double limit) {
         }
         level_begin = level_end;
     }
-    for (const FaceId f : seen) {
-        distance_[f.value] = kUnseen;
+    for (const FaceId f : seen_) {
+        is_seen_[f.value] = 0;
     }
 }
 

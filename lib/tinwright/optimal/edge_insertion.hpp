@@ -2,6 +2,7 @@
 #define TINWRIGHT_OPTIMAL_EDGE_INSERTION_HPP
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 
 #include "tinwright/criteria/criterion.hpp"
