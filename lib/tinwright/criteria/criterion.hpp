@@ -45,9 +45,9 @@ const CriterionTraits& criterion_traits(Criterion criterion);
 /// The criterion of that name, as in `--criterion`.
 std::optional<Criterion> find_criterion(std::string_view name);
 
-/// The measure of a face that is not a ghost, in the criterion's unit. Relative error a few units in the
-/// last place (of slopes: of the differences of z over the face). The same bits whatever the order of the
-/// face's corners.
+/// The measure of a face that is not a ghost, in the criterion's unit. Relative error below 2^-44; of
+/// slopes, a few units in the last place of the greatest rise over the least height. The same bits
+/// whatever the order of the face's corners.
 double measure_face(const Tin& tin, FaceId face, Criterion criterion);
 
 /// The worst measures of a TIN, in the criterion's unit.

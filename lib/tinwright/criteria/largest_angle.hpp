@@ -21,10 +21,11 @@ struct LargestAngle {
     double doubled_area = 0;    ///< positive
 };
 
-/// Below this part of its terms' size a difference of products is worked out again in integers.
+/// Below this part of its terms' size a difference of products is worked out again in integers: what is left
+/// to doubles errs by 65 half units in the last place at most.
 inline constexpr double kCancellation = 1.0 / 64;
 
-/// |a x b| for two edges from `origin`, to a few units in the last place.
+/// |a x b| for two edges from `origin`, to 2^-46 of it.
 inline double doubled_area_of(Key2 origin, Key2 p, Key2 q, const LocalKey& a, const LocalKey& b) {
     const double left = a.x * b.y;
     const double right = a.y * b.x;
@@ -34,7 +35,7 @@ inline double doubled_area_of(Key2 origin, Key2 p, Key2 q, const LocalKey& a, co
     return is_good ? area : std::abs(doubled_area(origin, p, q));
 }
 
-/// a . b for two edges from `origin`, to a few units in the last place; its sign is right.
+/// a . b for two edges from `origin`, to 2^-46 of it; its sign is right.
 inline double inner_product_of(Key2 origin, Key2 p, Key2 q, const LocalKey& a, const LocalKey& b) {
     const double left = a.x * b.x;
     const double right = a.y * b.y;

@@ -52,7 +52,8 @@ class MeasureLimit {
     }
 
   private:
-    /// Relative error of a measure with room to spare.
+    /// More than the relative error of a measure made of angles. That of a slope is greater for needles
+    /// (docs/criteria.md, "Rounding").
     static constexpr double kNoise = 1.0 / (1ULL << 44U);
 
     double limit_;

@@ -46,8 +46,9 @@ struct Triangulated {
 ///
 /// `samples`: n >= 3, CRS units, any order. Same set of samples and options, same TIN.
 /// Throws InputError: fewer than three distinct locations, all of them collinear, and what
-/// `make_sample_vertices` throws; UsageError for options out of range; Cancelled.
-/// O(n log n); at most 110 bytes a sample at the peak, the samples themselves not counted.
+/// `make_sample_vertices` and `optimize` throw; UsageError for options out of range; Cancelled.
+/// O(n log n); at most 110 bytes a sample at the peak, the samples themselves not counted. To be optimised
+/// costs extra, see `optimize`.
 Triangulated triangulate(std::span<const Point3> samples, const TriangulateOptions& options = {});
 
 }  // namespace tinwright

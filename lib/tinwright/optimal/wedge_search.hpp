@@ -20,7 +20,7 @@ class WedgeSearch {
     [[nodiscard]] const Refill& refill() const { return refill_; }
     [[nodiscard]] std::size_t candidates() const { return candidates_; }
     /// How deep the last search that failed looked, 1 for the face next to the face to improve; more than the
-    /// horizon if it wanted to look deeper.
+    /// horizon if it came that far.
     [[nodiscard]] unsigned reach() const { return static_cast<unsigned>(refill_.slots.size()); }
 
     /// Faces looked at, by all searches.
