@@ -35,26 +35,6 @@ Triangulated triangulate_to(Scope scope, Criterion criterion, const std::vector<
     return triangulate(samples, options);
 }
 
-/// Positions and face records as words.
-std::vector<std::uint64_t> words_of(const Tin& tin) {
-    std::vector<std::uint64_t> words;
-    for (std::uint32_t v = 0; v < tin.vertex_count(); ++v) {
-        const Point3 p = tin.position({v});
-        for (const double number : {p.x, p.y, p.z}) {
-            words.push_back(std::bit_cast<std::uint64_t>(number));
-        }
-    }
-    for (std::uint32_t f = 0; f < tin.mesh.slot_count(); ++f) {
-        const TriangleMesh::Face& face = tin.mesh.face({f});
-        for (unsigned i = 0; i < 3; ++i) {
-            words.push_back(face.vertex[i].value);
-            words.push_back(face.twin[i].value);
-        }
-        words.push_back(face.marks);
-    }
-    return words;
-}
-
 /// Sorted measures, worst first, in the criterion's unit; slopes and eccentricities as multiples of `unit`.
 std::vector<long double> reports_of(const Tin& tin, Criterion criterion, double unit = 1) {
     std::vector<long double> reports;

@@ -30,26 +30,6 @@ std::string refusal_of(const std::vector<Point3>& samples, const TriangulateOpti
     return message_of<Exception>([&] { triangulate(samples, options); });
 }
 
-/// Everything a TIN holds but the numbers of its samples, as words.
-std::vector<std::uint64_t> words_of(const Tin& tin) {
-    std::vector<std::uint64_t> words;
-    for (std::size_t v = 0; v < tin.vertex_count(); ++v) {
-        const Point3 p = tin.position({static_cast<std::uint32_t>(v)});
-        for (const double number : {p.x, p.y, p.z}) {
-            words.push_back(std::bit_cast<std::uint64_t>(number));
-        }
-    }
-    for (std::uint32_t f = 0; f < tin.mesh.slot_count(); ++f) {
-        const TriangleMesh::Face& face = tin.mesh.face({f});
-        for (unsigned i = 0; i < 3; ++i) {
-            words.push_back(face.vertex[i].value);
-            words.push_back(face.twin[i].value);
-        }
-        words.push_back(face.marks);
-    }
-    return words;
-}
-
 std::vector<std::vector<Point3>> sample_sets(std::uint64_t seed) {
     Random random(seed);
     std::vector<Point3> doubles(2000);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -82,6 +83,26 @@ inline std::vector<std::array<std::uint32_t, 3>> terrain_of(const tinwright::Tri
     }
     std::sort(faces.begin(), faces.end());
     return faces;
+}
+
+/// Everything a TIN holds but the numbers of its samples, as words.
+inline std::vector<std::uint64_t> words_of(const tinwright::Tin& tin) {
+    std::vector<std::uint64_t> words;
+    for (std::uint32_t v = 0; v < tin.vertex_count(); ++v) {
+        const tinwright::Point3 p = tin.position({v});
+        for (const double number : {p.x, p.y, p.z}) {
+            words.push_back(std::bit_cast<std::uint64_t>(number));
+        }
+    }
+    for (std::uint32_t f = 0; f < tin.mesh.slot_count(); ++f) {
+        const tinwright::TriangleMesh::Face& face = tin.mesh.face({f});
+        for (unsigned i = 0; i < 3; ++i) {
+            words.push_back(face.vertex[i].value);
+            words.push_back(face.twin[i].value);
+        }
+        words.push_back(face.marks);
+    }
+    return words;
 }
 
 /// The same faces in another order, each turned so that it begins at any of its corners.

@@ -35,20 +35,22 @@ struct SearchSpace {
     }
 };
 
-/// The measure that every new face has to stay below. Counts measures that cannot be told from it.
+/// The measure that every new face has to stay below, by more than rounding can make up: on a plane, where
+/// all slopes are equal, nothing is to be changed for the last bit. Counts measures that cannot be told from
+/// it.
 class MeasureLimit {
   public:
     explicit MeasureLimit(double limit)
-        : limit_(limit), almost_(limit * (1 - kNoise)), just_above_(limit * (1 + kNoise)) {}
+        : limit_(limit), below_(limit * (1 - kNoise)), above_(limit * (1 + kNoise)) {}
 
     [[nodiscard]] double value() const { return limit_; }
     [[nodiscard]] std::size_t ties() const { return ties_; }
     bool admits(double measure) {
-        if (measure < almost_) {
+        if (measure < below_) {
             return true;
         }
-        ties_ += measure <= just_above_ ? 1 : 0;
-        return measure < limit_;
+        ties_ += measure <= above_ ? 1 : 0;
+        return false;
     }
 
   private:
@@ -57,8 +59,8 @@ class MeasureLimit {
     static constexpr double kNoise = 1.0 / (1ULL << 44U);
 
     double limit_;
-    double almost_;
-    double just_above_;
+    double below_;
+    double above_;
     std::size_t ties_ = 0;
 };
 

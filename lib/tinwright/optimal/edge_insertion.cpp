@@ -123,31 +123,24 @@ class Engine {
     void descend_to_worst();
     void optimize_all();
     [[nodiscard]] bool has_run_away() const;
-    void sweep();
-    void forget_tries_near(double limit);
+    void sweep(unsigned horizon);
+    void forget_tries_near_changes();
 
     /// A try of a face that failed.
     struct FailedTry {
         std::uint8_t reach = kNone;  ///< how deep it looked
         std::uint16_t ties = 0;      ///< measures met that equal the face's, or the greatest number
     };
-    static constexpr std::uint8_t kNone = 0;  ///< there was none, or what it saw has changed
-    /// How deep sweeps look. Most improvements are near, but most time would go into looking far.
-    static constexpr unsigned kHorizon = 8;
-    /// How deep a try of a sweep may have looked to stand afterwards; what looked deeper is tried again
-    /// rather than watched.
-    static constexpr unsigned kStanding = 5;
-    static_assert(kStanding <= kHorizon);  // a try cut off by the horizon reaches beyond it, and never stands
+    static constexpr std::uint8_t kNone = 0;   ///< there was none, or what it saw may have changed
+    static constexpr std::uint8_t kFar = 255;  ///< that deep or deeper
 
     TriangleMesh& mesh_;
     std::size_t vertex_count_;
     const C& criterion_;
     Stopwatch stopwatch_;
     LargeVector<double> measures_;
-    LargeVector<FailedTry> tries_;       ///< those that stand, one a slot; empty if none are kept
-    LargeVector<std::uint8_t> is_seen_;  ///< scratch of `forget_tries_near`, zero between calls
-    std::vector<FaceId> changed_;
-    std::vector<FaceId> seen_;
+    LargeVector<FailedTry> tries_;  ///< the last of each slot, if it stands
+    std::vector<FaceId> changed_;   ///< new faces of the last sweep, some of them more than once
     internal::SearchSpace<C> space_;
     typename SearchFor<C>::Type search_;
     OptimizeReport report_;
@@ -221,7 +214,7 @@ bool Engine<C>::improve(FaceId f, unsigned horizon) {
         }
         reach = std::max(reach, search_.reach());
     }
-    failed_.reach = static_cast<std::uint8_t>(std::min(reach, kHorizon + 1));
+    failed_.reach = reach > horizon ? kNone : static_cast<std::uint8_t>(std::min<unsigned>(reach, kFar));
     failed_.ties = static_cast<std::uint16_t>(std::min<std::size_t>(limit.ties(), 0xFFFF));
     return false;
 }
@@ -237,17 +230,18 @@ void Engine<C>::commit() {
 }
 
 /// Improves faces worst first down to the measure `stop`; with `only_worst`, until one cannot be improved.
-/// What has no anchor is never queued [tan1993, Lemma 4.5], nor is a face whose failed try stands.
+/// What has no anchor is never queued [tan1993, Lemma 4.5].
 template <FaceCriterion C>
 void Engine<C>::descend(double stop, bool only_worst) {
-    std::vector<QueuedFace> at_start;
     const auto is_hopeful = [this, stop](FaceId f) {
+        const double measure = measures_[f.value];
         const auto& [a, b, c] = mesh_.face(f).vertex;
-        return measures_[f.value] >= stop && (tries_.empty() || tries_[f.value].reach == kNone) &&
-               criterion_.anchors(a, b, c) != 0;
+        return measure >= stop && measure != kInfinity && criterion_.anchors(a, b, c) != 0;
     };
-    for (std::uint32_t f = 0; f < measures_.size(); ++f) {
-        if (measures_[f] != kInfinity && is_hopeful({f})) {
+    const auto slots = static_cast<std::uint32_t>(measures_.size());
+    std::vector<QueuedFace> at_start;
+    for (std::uint32_t f = 0; f < slots; ++f) {
+        if (is_hopeful({f})) {
             at_start.push_back({measures_[f], {f}});
         }
     }
@@ -270,11 +264,7 @@ void Engine<C>::descend(double stop, bool only_worst) {
             return;
         }
         if (improve(worst.face)) {
-            changed_.assign(search_.refill().slots.begin(), search_.refill().slots.end());
-            if (!tries_.empty()) {
-                forget_tries_near(worst.measure);
-            }
-            for (const FaceId face : changed_) {
+            for (const FaceId face : search_.refill().slots) {
                 if (is_hopeful(face)) {
                     added.push({measures_[face.value], face});
                 }
@@ -297,14 +287,14 @@ void Engine<C>::descend(double stop, bool only_worst) {
 /// Fetches what the tries of faces some places down the list will read: they lie all over memory.
 template <FaceCriterion C>
 void Engine<C>::prefetch(const std::vector<QueuedFace>& list, std::size_t place) const {
-    constexpr std::size_t kFar = 12;
-    constexpr std::size_t kNear = 6;
-    if (place + kFar < list.size()) {
-        __builtin_prefetch(&mesh_.face(list[place + kFar].face));
-        __builtin_prefetch(&measures_[list[place + kFar].face.value]);
+    constexpr std::size_t kAhead = 12;
+    constexpr std::size_t kSoon = 6;
+    if (place + kAhead < list.size()) {
+        __builtin_prefetch(&mesh_.face(list[place + kAhead].face));
+        __builtin_prefetch(&measures_[list[place + kAhead].face.value]);
     }
-    if (place + kNear < list.size()) {
-        const TriangleMesh::Face& face = mesh_.face(list[place + kNear].face);
+    if (place + kSoon < list.size()) {
+        const TriangleMesh::Face& face = mesh_.face(list[place + kSoon].face);
         for (unsigned i = 0; i < 3; ++i) {
             __builtin_prefetch(&space_.keys[face.vertex[i].value]);
             __builtin_prefetch(&mesh_.face(face_of(face.twin[i])));
@@ -323,32 +313,34 @@ void Engine<C>::descend_to_worst() {
     }
 }
 
-/// Improves faces until none can be. At first each where it is met and as far as can be seen from near: that
-/// order is not the theorems', but it does not wander through all memory, every step lowers the sorted
-/// vector, and where in the end no face can be improved the optimum is reached (docs/criteria.md, "Any
-/// order"). Then, worst first, those that have not been seen to fail since anything near them changed.
+/// Improves faces, each where it is met, until none can be. That order is not the theorems', but it does not
+/// wander through all memory, every step lowers the sorted vector, and where no face can be improved the
+/// optimum is reached (docs/criteria.md, "Any order").
 template <FaceCriterion C>
 void Engine<C>::optimize_all() {
-    tries_.assign(measures_.size(), FailedTry{});
-    is_seen_.assign(measures_.size(), 0);
-    // After two sweeps few faces are still to be improved.
-    stopwatch_.set_stage(0, 0.4);
-    sweep();
-    tries_.assign(measures_.size(), FailedTry{});  // too much has changed to find those that stand
-    stopwatch_.set_stage(0.4, 0.5);
-    sweep();
-    forget_tries_near(kInfinity);
-    stopwatch_.set_stage(0.5, 1);
-    if (stopwatch_.has_stopped()) {
+    // Most improvements are near, but most time goes into looking far: that is left for later.
+    constexpr unsigned kNear = WeakCriterion<C> ? 4 : internal::kNoHorizon;
+    double done = 0;
+    unsigned horizon = kNear;
+    unsigned sweeps = 0;
+    do {
+        // After the first sweep nearly everything has changed: finding what has not would not pay.
+        if (sweeps < 2) {
+            tries_.assign(measures_.size(), FailedTry{});
+        } else {
+            forget_tries_near_changes();
+        }
+        stopwatch_.set_stage(done, (1 + done) / 2);
+        done = (1 + done) / 2;
+        sweep(horizon);
+        horizon = internal::kNoHorizon;
+        ++sweeps;
+    } while ((!changed_.empty() || sweeps == 1) && !has_run_away() && !stopwatch_.has_stopped());
+    if (has_run_away()) {
+        descend(-kInfinity, false);
         return;
     }
-    for (FailedTry& failed : tries_) {
-        failed = failed.reach <= kStanding ? failed : FailedTry{};
-    }
-    if (has_run_away()) {
-        tries_.clear();
-    }
-    descend(-kInfinity, false);
+    report_.frozen = mesh_.count_terrain();
     for (const FailedTry& failed : tries_) {
         report_.ties += failed.ties;
     }
@@ -365,9 +357,10 @@ bool Engine<C>::has_run_away() const {
            search_.visits() > kVisitsPerFace * measures_.size() + kSmall;
 }
 
-/// Tries every face without a failed try that stands, and the new ones where a try succeeds.
+/// Tries every face without a failed try that stands, looking at most `horizon` faces deep, and the new ones
+/// where a try succeeds: `changed_`.
 template <FaceCriterion C>
-void Engine<C>::sweep() {
+void Engine<C>::sweep(unsigned horizon) {
     std::vector<FaceId> pending;
     changed_.clear();
     for (std::uint32_t f = 0; f < measures_.size(); ++f) {
@@ -381,7 +374,7 @@ void Engine<C>::sweep() {
             if (has_run_away() || stopwatch_.is_over(f, measures_.size())) {
                 return;
             }
-            if (!improve(face, kHorizon)) {
+            if (!improve(face, horizon)) {
                 tries_[face.value] = failed_;
                 continue;
             }
@@ -393,40 +386,40 @@ void Engine<C>::sweep() {
     }
 }
 
-/// Forgets the tries of faces of measure `limit` and below that looked as deep as the nearest changed face is
-/// away, in steps from face to face: no other can have seen a change. For worse faces less bad ones do not
-/// count (docs/criteria.md, Theorem 1). Adds their faces to `changed_`.
+/// Forgets the tries that looked as deep as the nearest changed face is away, in steps from face to face: no
+/// other can have seen a change.
 template <FaceCriterion C>
-void Engine<C>::forget_tries_near(double limit) {
-    seen_.clear();
-    const auto see = [this](FaceId f) {
-        if (is_seen_[f.value] != 0) {
-            return false;
-        }
-        is_seen_[f.value] = 1;
-        seen_.push_back(f);
-        return true;
-    };
+void Engine<C>::forget_tries_near_changes() {
+    LargeVector<std::uint8_t> is_seen(measures_.size(), 0);
+    std::vector<FaceId> level;
     for (const FaceId f : changed_) {
-        see(f);
         tries_[f.value] = {};
+        if (is_seen[f.value] == 0) {
+            is_seen[f.value] = 1;
+            level.push_back(f);
+        }
     }
-    std::size_t level_begin = 0;
-    for (unsigned steps = 1; steps <= kStanding; ++steps) {
-        const std::size_t level_end = seen_.size();
-        for (std::size_t i = level_begin; i < level_end; ++i) {
-            for (const HalfEdgeId twin : mesh_.face(seen_[i]).twin) {
+    std::vector<FaceId> next_level;
+    for (unsigned steps = 1; steps < kFar && !level.empty(); ++steps) {
+        next_level.clear();
+        for (const FaceId f : level) {
+            for (const HalfEdgeId twin : mesh_.face(f).twin) {
                 const FaceId g = face_of(twin);
-                if (see(g) && tries_[g.value].reach >= steps && measures_[g.value] <= limit) {
-                    tries_[g.value] = {};
-                    changed_.push_back(g);
+                if (is_seen[g.value] == 0) {
+                    is_seen[g.value] = 1;
+                    next_level.push_back(g);
+                    if (tries_[g.value].reach >= steps) {
+                        tries_[g.value] = {};
+                    }
                 }
             }
         }
-        level_begin = level_end;
+        std::swap(level, next_level);
     }
-    for (const FaceId f : seen_) {
-        is_seen_[f.value] = 0;
+    for (FailedTry& failed : tries_) {
+        if (failed.reach == kFar) {
+            failed = {};
+        }
     }
 }
 
