@@ -58,6 +58,18 @@ constexpr std::array kTextKeys{TextKey{"TINWRIGHT_CRITERION", &CriterionReport::
                                TextKey{"TINWRIGHT_PROVEN", &CriterionReport::proven},
                                TextKey{"TINWRIGHT_STOPPED_BY", &CriterionReport::stopped_by}};
 
+struct CountKey {
+    const char* metadata;
+    const char* json;
+    std::size_t OptimizeReport::*value;
+};
+
+constexpr std::array kCountKeys{CountKey{"TINWRIGHT_TIES", "ties", &OptimizeReport::ties},
+                                CountKey{"TINWRIGHT_FROZEN", "frozen", &OptimizeReport::frozen},
+                                CountKey{"TINWRIGHT_INSERTIONS", "insertions", &OptimizeReport::insertions},
+                                CountKey{"TINWRIGHT_TRIES", "tries", &OptimizeReport::tries},
+                                CountKey{"TINWRIGHT_CANDIDATES", "candidates", &OptimizeReport::candidates}};
+
 std::string short_number(double value) {
     std::array<char, 48> text{};
     std::snprintf(text.data(), text.size(), "%.6g", value);
@@ -159,6 +171,7 @@ CriterionReport make_criterion_report(const TriangulationOptions& options,
 }
 
 CriterionReport read_criterion_report(const io::TinMetadata& metadata) {
+    constexpr double kGreatestCount = 1e15;
     CriterionReport report;
     for (const TextKey& key : kTextKeys) {
         report.*key.value = metadata_value(metadata, key.metadata);
@@ -166,6 +179,17 @@ CriterionReport read_criterion_report(const io::TinMetadata& metadata) {
     for (const WorstKey& key : kWorstKeys) {
         report.*key.value = find_number(metadata_value(metadata, key.metadata));
     }
+    OptimizeReport counts;
+    bool is_counted = true;
+    for (const CountKey& key : kCountKeys) {
+        const std::optional<double> count = find_number(metadata_value(metadata, key.metadata));
+        is_counted = is_counted && count && *count >= 0 && *count < kGreatestCount;
+        counts.*key.value = is_counted ? static_cast<std::size_t>(*count) : 0;
+    }
+    if (is_counted) {
+        report.counts = counts;
+    }
+    report.is_from_file = true;
     return report;
 }
 
@@ -179,6 +203,11 @@ io::TinMetadata criterion_metadata(const CriterionReport& report) {
     for (const WorstKey& key : kWorstKeys) {
         if (const std::optional<double>& value = report.*key.value) {
             metadata.emplace_back(key.metadata, decimal_text(*value));
+        }
+    }
+    for (const CountKey& key : kCountKeys) {
+        if (report.counts) {
+            metadata.emplace_back(key.metadata, std::to_string((*report.counts).*key.value));
         }
     }
     return metadata;
@@ -204,12 +233,10 @@ JsonValue criterion_json(const CriterionReport& report) {
     if (!report.stopped_by.empty()) {
         json.set("stopped_by", report.stopped_by);
     }
-    if (report.counts) {
-        json.set("ties", report.counts->ties)
-            .set("frozen", report.counts->frozen)
-            .set("insertions", report.counts->insertions)
-            .set("tries", report.counts->tries)
-            .set("candidates", report.counts->candidates);
+    for (const CountKey& key : kCountKeys) {
+        if (report.counts) {
+            json.set(key.json, (*report.counts).*key.value);
+        }
     }
     return json;
 }
@@ -219,7 +246,7 @@ std::vector<std::string> criterion_lines(const CriterionReport& report) {
         return {};
     }
     std::vector<std::string> lines{report.name + ", scope " + report.scope +
-                                   (report.counts ? "" : " (as the file says)")};
+                                   (report.is_from_file ? " (as the file says)" : "")};
     lines.push_back(worst_line(report));
     lines.push_back(proof_line(report));
     if (report.counts) {

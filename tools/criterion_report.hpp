@@ -25,7 +25,8 @@ struct CriterionReport {
     std::optional<double> worst_interior_delaunay;
     std::string proven;                    ///< "theorem", "tested" or "false"
     std::string stopped_by;                ///< "finished", "budget" or "interrupt"
-    std::optional<OptimizeReport> counts;  ///< only for one made just now
+    std::optional<OptimizeReport> counts;  ///< of a file only its numbers of ties, tries and so on
+    bool is_from_file = false;
 };
 
 /// The report on a TIN made with `options`. `result`: empty for a Delaunay TIN.

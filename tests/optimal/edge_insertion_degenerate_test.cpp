@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include <doctest/doctest.h>
@@ -140,5 +141,19 @@ TEST_SUITE("optimal/edge_insertion_degenerate") {
                 CHECK(terrain_of(tin.mesh) == faces);
             }
         }
+    }
+
+    TEST_CASE("on a slanted plane nothing is changed for what rounding makes of equal slopes") {
+        Random random(7);
+        std::vector<Point3> samples = decimal_samples(random, 2000, 2, 600000, 5000000, 500);
+        for (Point3& p : samples) {
+            // Centimetres and quarters of them: each z is the double nearest to its decimal.
+            p.z = std::round(2500 * (p.x - 600000) + 5000 * (p.y - 5000000)) / 10000;
+        }
+        Tin tin = tin_of_samples(samples, DuplicatePolicy::First);
+        const OptimizeReport report =
+            optimize(tin, {.criterion = Criterion::Slope, .scope = {.kind = Scope::Kind::Vector}});
+        CHECK(report.insertions == 0);
+        CHECK(report.proof == Proof::Tested);
     }
 }

@@ -24,13 +24,10 @@ struct Measured {
     double error = 0;
 };
 
-/// Measures made of one face's angles err by less than 2^-44; this is more than ten times that.
-constexpr double kRelativeError = 1e-12;
-
 template <FaceCriterion C>
 Measured measure_with_error(const C& criterion, const Tin& /*tin*/, VertexId a, VertexId b, VertexId c) {
     const double value = criterion.measure(a, b, c);
-    return {value, kRelativeError * std::abs(value)};
+    return {value, kTieMargin * std::abs(value)};
 }
 
 /// The gradient of a needle is a small difference of great products, which its slope does not show. Its error
@@ -46,7 +43,7 @@ Measured measure_with_error(const SlopeCriterion& criterion, const Tin& tin, Ver
     const auto [low, high] = std::minmax({tin.z[a.value], tin.z[b.value], tin.z[c.value]});
     const double slope_error = 32 * std::numeric_limits<double>::epsilon() * length * (high - low) / area;
     const double value = criterion.measure(a, b, c);
-    return {value, kRelativeError * value + slope_error * (2 * std::sqrt(value) + slope_error)};
+    return {value, kTieMargin * value + slope_error * (2 * std::sqrt(value) + slope_error)};
 }
 
 /// The ends of the edges crossed on one side of the view, the anchor before them, and what is known of the

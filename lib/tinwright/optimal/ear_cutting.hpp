@@ -41,7 +41,7 @@ struct SearchSpace {
 class MeasureLimit {
   public:
     explicit MeasureLimit(double limit)
-        : limit_(limit), below_(limit * (1 - kNoise)), above_(limit * (1 + kNoise)) {}
+        : limit_(limit), below_(limit * (1 - kTieMargin)), above_(limit * (1 + kTieMargin)) {}
 
     [[nodiscard]] double value() const { return limit_; }
     [[nodiscard]] std::size_t ties() const { return ties_; }
@@ -54,10 +54,6 @@ class MeasureLimit {
     }
 
   private:
-    /// More than the relative error of a measure made of angles. That of a slope is greater for needles
-    /// (docs/criteria.md, "Rounding").
-    static constexpr double kNoise = 1.0 / (1ULL << 44U);
-
     double limit_;
     double below_;
     double above_;

@@ -308,7 +308,8 @@ template <FaceCriterion C>
 void Engine<C>::descend_to_worst() {
     constexpr std::size_t kFirst = 256;
     constexpr std::size_t kGrowth = 16;
-    for (std::size_t rank = kFirst; report_.frozen == 0 && !stopwatch_.has_stopped(); rank *= kGrowth) {
+    for (std::size_t rank = kFirst; report_.frozen == 0 && !stopwatch_.has_stopped();
+         rank = std::min(rank * kGrowth, measures_.size())) {
         descend(measure_of_rank(rank), true);
     }
 }
@@ -321,9 +322,7 @@ void Engine<C>::optimize_all() {
     // Most improvements are near, but most time goes into looking far: that is left for later.
     constexpr unsigned kNear = WeakCriterion<C> ? 4 : internal::kNoHorizon;
     double done = 0;
-    unsigned horizon = kNear;
-    unsigned sweeps = 0;
-    do {
+    for (unsigned sweeps = 0; sweeps < 2 || !changed_.empty(); ++sweeps) {
         // After the first sweep nearly everything has changed: finding what has not would not pay.
         if (sweeps < 2) {
             tries_.assign(measures_.size(), FailedTry{});
@@ -332,13 +331,14 @@ void Engine<C>::optimize_all() {
         }
         stopwatch_.set_stage(done, (1 + done) / 2);
         done = (1 + done) / 2;
-        sweep(horizon);
-        horizon = internal::kNoHorizon;
-        ++sweeps;
-    } while ((!changed_.empty() || sweeps == 1) && !has_run_away() && !stopwatch_.has_stopped());
-    if (has_run_away()) {
-        descend(-kInfinity, false);
-        return;
+        sweep(sweeps == 0 ? kNear : internal::kNoHorizon);
+        if (has_run_away()) {
+            descend(-kInfinity, false);
+            return;
+        }
+        if (stopwatch_.has_stopped()) {
+            return;
+        }
     }
     report_.frozen = mesh_.count_terrain();
     for (const FailedTry& failed : tries_) {

@@ -67,7 +67,7 @@ struct OptimizeReport {
 ///
 /// `tin`: at least one terrain face. Throws InputError, with the sample, for an elevation beyond 1e100.
 /// Cost: seconds for 10^6 samples, growing about linearly (docs/benchmarks.md); at worst quadratic for angle
-/// and height. Up to 100 bytes a vertex of scratch.
+/// and height. About 50 bytes a vertex of scratch.
 OptimizeReport optimize(Tin& tin, const OptimizeOptions& options);
 
 }  // namespace tinwright
