@@ -86,18 +86,15 @@ TEST_SUITE("tools/criterion_report") {
     }
 
     TEST_CASE("what a file keeps is read back") {
-        CriterionReport report =
+        const CriterionReport report =
             make_criterion_report(options_for("height", "vector"), sample_result(), in_metres());
         const io::TinMetadata metadata = criterion_metadata(report);
         const CriterionReport read = read_criterion_report(metadata);
-        CHECK_FALSE(read.counts.has_value());
-        report.counts.reset();
         CHECK(criterion_json(read).text() == criterion_json(report).text());
         CHECK(criterion_metadata(read) == metadata);
-        CHECK(criterion_lines(read) ==
-              std::vector<std::string>{"height, scope vector (as the file says)",
-                                       "least height 12.25 -> 4.5 metre (interior 8.5 -> 3.25 metre)",
-                                       "every face proven optimal (theorem)"});
+        std::vector<std::string> lines = criterion_lines(report);
+        lines.at(0) = "height, scope vector (as the file says)";
+        CHECK(criterion_lines(read) == lines);
     }
 
     TEST_CASE("a Delaunay TIN, and one that says nothing, have no more than a name") {

@@ -149,6 +149,9 @@ class EarCutter {
         --chain.size;
     }
 
+    /// Ears cut since `clear`, those given up included.
+    [[nodiscard]] std::size_t ear_count() const { return ears_.size(); }
+
     /// The ears of two chains of which only q is left, joined along q s.
     void join(const Chain& left, const Chain& right, std::vector<CavityFace>& faces) {
         faces.clear();

@@ -43,14 +43,17 @@ class Stopwatch {
         begin_ = begin;
         end_ = end;
     }
-    /// Whether to stop; `done` of `all` is what the stage has come to.
-    bool is_over(std::size_t done, std::size_t all) {
+    /// Whether to stop; `done` of `all` is what the stage has come to, `work` the steps taken since the
+    /// start.
+    bool is_over(std::size_t done, std::size_t all, std::size_t work) {
         // A clock is slow next to most tries.
         constexpr unsigned kTriesBetween = 64;
+        constexpr std::size_t kWorkBetween = 1U << 16U;
         if (stopped_by_ != StoppedBy::Finished) {
             return true;
         }
-        if (calls_++ % kTriesBetween == 0) {
+        if (calls_++ % kTriesBetween == 0 || work - work_before_ > kWorkBetween) {
+            work_before_ = work;
             if (budget_ && seconds() >= *budget_) {
                 stopped_by_ = StoppedBy::Budget;
             } else if (progress_) {
@@ -71,6 +74,7 @@ class Stopwatch {
     double begin_ = 0;
     double end_ = 1;
     unsigned calls_ = 0;
+    std::size_t work_before_ = 0;
     StoppedBy stopped_by_ = StoppedBy::Finished;
 };
 
@@ -260,7 +264,7 @@ void Engine<C>::descend(double stop, bool only_worst) {
         if (measures_[worst.face.value] != worst.measure) {
             continue;  // its face is gone
         }
-        if (stopwatch_.is_over(done, at_start.size())) {
+        if (stopwatch_.is_over(done, at_start.size(), search_.visits())) {
             return;
         }
         if (improve(worst.face)) {
@@ -371,7 +375,7 @@ void Engine<C>::sweep(unsigned horizon) {
         while (!pending.empty()) {
             const FaceId face = pending.back();
             pending.pop_back();
-            if (has_run_away() || stopwatch_.is_over(f, measures_.size())) {
+            if (has_run_away() || stopwatch_.is_over(f, measures_.size(), search_.visits())) {
                 return;
             }
             if (!improve(face, horizon)) {

@@ -111,6 +111,7 @@ bool EmptyTriangleSearch<C>::find(const SearchSpace<C>& space, MeasureLimit& lim
             ++candidates_;
             if (limit.admits(space.criterion.measure(q, p, s)) &&
                 limit.admits(space.criterion.measure(q, s, r)) && fill(space, limit, face, i)) {
+                visits_ += count + cutter_.ear_count();
                 return true;
             }
             left = from_p;
@@ -139,7 +140,7 @@ bool EmptyTriangleSearch<C>::find(const SearchSpace<C>& space, MeasureLimit& lim
             level_end = count;
         }
     }
-    visits_ += count;
+    visits_ += count + cutter_.ear_count();
     return false;
 }
 
