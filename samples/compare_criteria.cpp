@@ -40,9 +40,10 @@ void for_each_face(const Tin& tin, Visitor visitor) {
 class HeldOut {
   public:
     HeldOut(const std::vector<Point3>& samples, const tinwright::Box& bounds)
-        : samples_(samples), low_{bounds.x_min, bounds.y_min} {
+        : samples_(samples),
+          low_{bounds.x_min, bounds.y_min},
+          side_(static_cast<std::size_t>(std::sqrt(static_cast<double>(samples.size()))) + 1) {
         const double extent = std::max(bounds.x_max - bounds.x_min, bounds.y_max - bounds.y_min);
-        side_ = static_cast<std::size_t>(std::sqrt(static_cast<double>(samples.size()))) + 1;
         cell_ = extent / static_cast<double>(side_);
         cells_.resize(side_ * side_);
         for (std::size_t i = 0; i < samples.size(); ++i) {
@@ -66,7 +67,7 @@ class HeldOut {
 
   private:
     [[nodiscard]] std::size_t index(double distance) const {
-        const double last = static_cast<double>(side_ - 1);
+        const auto last = static_cast<double>(side_ - 1);
         return static_cast<std::size_t>(std::clamp(std::floor(distance / cell_), 0.0, last));
     }
 

@@ -45,8 +45,8 @@ const CriterionTraits& criterion_traits(Criterion criterion);
 /// The criterion of that name, as in `--criterion`.
 std::optional<Criterion> find_criterion(std::string_view name);
 
-/// Measures that differ by less than this part of themselves count as equal: more than their rounding, and than
-/// what the rounding of elevations makes of a plane.
+/// Measures that differ by less than this part of themselves count as equal: more than their rounding, and
+/// than what the rounding of elevations makes of a plane.
 inline constexpr double kTieMargin = 1.0 / (1ULL << 34U);
 
 /// The measure of a face that is not a ghost, in the criterion's unit. Relative error below 2^-44; of

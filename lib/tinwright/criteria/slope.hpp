@@ -64,8 +64,8 @@ class SlopeCriterion {
 
         /// The rates still possible.
         struct State {
-            double least;
-            double greatest;
+            double least = 0;
+            double greatest = 0;
         };
 
         Cut(const SlopeCriterion& criterion, VertexId q, VertexId /*p*/, VertexId /*r*/, double measure)

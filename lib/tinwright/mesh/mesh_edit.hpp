@@ -40,8 +40,8 @@ struct CavityFace {
         std::uint64_t code_ = kUnknown;
     };
 
-    std::array<VertexId, 3> vertex;  ///< counter-clockwise
-    std::array<Across, 3> across;    ///< of the edge from corner i to corner i + 1
+    std::array<VertexId, 3> vertex{};  ///< counter-clockwise
+    std::array<Across, 3> across;      ///< of the edge from corner i to corner i + 1
 };
 
 /// Replaces the faces of a cavity, a simply connected set of terrain faces, by as many others within the same

@@ -7,6 +7,7 @@
 #include <functional>
 #include <limits>
 #include <queue>
+#include <utility>
 #include <vector>
 
 #include <tbb/blocked_range.h>
@@ -112,6 +113,31 @@ class Engine {
         }
     };
 
+    /// Faces worst first: those of a sorted list, and those added since.
+    class Queue {
+      public:
+        explicit Queue(std::vector<QueuedFace> list) : list_(std::move(list)) {}
+
+        [[nodiscard]] bool is_empty() const { return done_ == list_.size() && added_.empty(); }
+        void push(QueuedFace face) { added_.push(face); }
+        QueuedFace pop() {
+            if (done_ < list_.size() && (added_.empty() || added_.top() < list_[done_])) {
+                return list_[done_++];
+            }
+            const QueuedFace worst = added_.top();
+            added_.pop();
+            return worst;
+        }
+        [[nodiscard]] const std::vector<QueuedFace>& list() const { return list_; }
+        /// Faces of the list that were popped.
+        [[nodiscard]] std::size_t done() const { return done_; }
+
+      private:
+        std::vector<QueuedFace> list_;
+        std::size_t done_ = 0;
+        std::priority_queue<QueuedFace> added_;
+    };
+
     [[nodiscard]] double measure_of(FaceId f) const {
         const auto& [a, b, c] = mesh_.face(f).vertex;
         return criterion_.measure(a, b, c);
@@ -122,6 +148,8 @@ class Engine {
 
     bool improve(FaceId f, unsigned horizon = internal::kNoHorizon);
     void commit();
+    [[nodiscard]] bool is_hopeful(FaceId f, double stop) const;
+    [[nodiscard]] std::vector<QueuedFace> list_hopeful(double stop) const;
     void descend(double stop, bool only_worst);
     void prefetch(const std::vector<QueuedFace>& list, std::size_t place) const;
     void descend_to_worst();
@@ -233,44 +261,45 @@ void Engine<C>::commit() {
     ++report_.insertions;
 }
 
-/// Improves faces worst first down to the measure `stop`; with `only_worst`, until one cannot be improved.
-/// What has no anchor is never queued [tan1993, Lemma 4.5].
+/// Whether a face of measure `stop` or more may be improvable: what has no anchor cannot [tan1993,
+/// Lemma 4.5].
 template <FaceCriterion C>
-void Engine<C>::descend(double stop, bool only_worst) {
-    const auto is_hopeful = [this, stop](FaceId f) {
-        const double measure = measures_[f.value];
-        const auto& [a, b, c] = mesh_.face(f).vertex;
-        return measure >= stop && measure != kInfinity && criterion_.anchors(a, b, c) != 0;
-    };
-    const auto slots = static_cast<std::uint32_t>(measures_.size());
-    std::vector<QueuedFace> at_start;
-    for (std::uint32_t f = 0; f < slots; ++f) {
-        if (is_hopeful({f})) {
-            at_start.push_back({measures_[f], {f}});
+bool Engine<C>::is_hopeful(FaceId f, double stop) const {
+    const double measure = measures_[f.value];
+    const auto& [a, b, c] = mesh_.face(f).vertex;
+    return measure >= stop && measure != kInfinity && criterion_.anchors(a, b, c) != 0;
+}
+
+/// The faces that may be improvable, worst first.
+template <FaceCriterion C>
+std::vector<typename Engine<C>::QueuedFace> Engine<C>::list_hopeful(double stop) const {
+    std::vector<QueuedFace> list;
+    for (std::uint32_t f = 0; f < measures_.size(); ++f) {
+        if (is_hopeful({f}, stop)) {
+            list.push_back({measures_[f], {f}});
         }
     }
-    std::sort(at_start.begin(), at_start.end(),
-              [](const QueuedFace& a, const QueuedFace& b) { return b < a; });
-    std::priority_queue<QueuedFace> added;
-    std::size_t done = 0;
-    while (done < at_start.size() || !added.empty()) {
-        const bool is_added = done == at_start.size() || (!added.empty() && at_start[done] < added.top());
-        const QueuedFace worst = is_added ? added.top() : at_start[done];
-        if (is_added) {
-            added.pop();
-        } else {
-            prefetch(at_start, ++done);
-        }
+    std::sort(list.begin(), list.end(), [](const QueuedFace& a, const QueuedFace& b) { return b < a; });
+    return list;
+}
+
+/// Improves faces worst first down to the measure `stop`; with `only_worst`, until one cannot be improved.
+template <FaceCriterion C>
+void Engine<C>::descend(double stop, bool only_worst) {
+    Queue queue(list_hopeful(stop));
+    while (!queue.is_empty()) {
+        const QueuedFace worst = queue.pop();
+        prefetch(queue.list(), queue.done());
         if (measures_[worst.face.value] != worst.measure) {
             continue;  // its face is gone
         }
-        if (stopwatch_.is_over(done, at_start.size(), search_.visits())) {
+        if (stopwatch_.is_over(queue.done(), queue.list().size(), search_.visits())) {
             return;
         }
         if (improve(worst.face)) {
             for (const FaceId face : search_.refill().slots) {
-                if (is_hopeful(face)) {
-                    added.push({measures_[face.value], face});
+                if (is_hopeful(face, stop)) {
+                    queue.push({measures_[face.value], face});
                 }
             }
             continue;

@@ -36,12 +36,12 @@ class EmptyTriangleSearch {
     /// An edge to cross next, and what bounds the view through it: the vertices in sight lie to the right of
     /// a ray from p and to the left of a ray from r, given by their directions in keys.
     struct Node {
-        HalfEdgeId edge;  ///< in the face on the near side; runs from the right to the left
-        std::uint32_t parent;
-        std::uint32_t polygons;  ///< index of its polygons, or `kNone` while nobody has asked for them
+        HalfEdgeId edge{};  ///< in the face on the near side; runs from the right to the left
+        std::uint32_t parent = 0;
+        std::uint32_t polygons = 0;  ///< index of its polygons, or `kNone` while nobody has asked for them
         Direction left;
         Direction right;
-        typename C::Cut::State state;
+        typename C::Cut::State state{};
     };
 
     /// The chains on both sides of the way to a node.
@@ -83,6 +83,9 @@ bool EmptyTriangleSearch<C>::find(const SearchSpace<C>& space, MeasureLimit& lim
     const Key2 at_p = space.keys[p.value];
     const Key2 at_r = space.keys[r.value];
     const double measure = limit.value();
+    const auto is_better = [&](VertexId a, VertexId b, VertexId c) {
+        return limit.admits(space.criterion.measure(a, b, c));
+    };
     const typename C::Cut cut(space.criterion, q, p, r, measure);
     nodes_.resize(std::max<std::size_t>(nodes_.size(), kLeastNodes));
     nodes_[0] = {first, 0, 0, direction(at_p, at_q), direction(at_r, at_q), cut.start()};
@@ -109,8 +112,7 @@ bool EmptyTriangleSearch<C>::find(const SearchSpace<C>& space, MeasureLimit& lim
         bool goes_right = turn(right, from_r) > 0;
         if (goes_left && goes_right) {
             ++candidates_;
-            if (limit.admits(space.criterion.measure(q, p, s)) &&
-                limit.admits(space.criterion.measure(q, s, r)) && fill(space, limit, face, i)) {
+            if (is_better(q, p, s) && is_better(q, s, r) && fill(space, limit, face, i)) {
                 visits_ += count + cutter_.ear_count();
                 return true;
             }
@@ -121,19 +123,19 @@ bool EmptyTriangleSearch<C>::find(const SearchSpace<C>& space, MeasureLimit& lim
             goes_left = turn(right, direction(left_end, at_r)) > 0;
             goes_right = turn(left, direction(right_end, at_p)) < 0;
         }
-        const bool is_within = reach_ < horizon;
         const bool is_to_cut = reach_ % C::Cut::kLevels == 0;
-        // Runs from s to the left end, and from the right end to s.
-        const HalfEdgeId of_left = previous(t);
-        const HalfEdgeId of_right = next(t);
-        if (goes_left && is_within && space.may_cross(of_left, measure)) {
-            nodes_[count] = {of_left, i, kNone, node.left, right, node.state};
-            count += !is_to_cut || cut.cross(nodes_[count].state, s, beyond[corner_of(t)]) ? 1 : 0;
+        const auto open = [&](HalfEdgeId edge, VertexId a, VertexId b, Direction to_left,
+                              Direction to_right) {
+            nodes_[count] = {edge, i, kNone, to_left, to_right, node.state};
+            const bool is_open = reach_ < horizon && space.may_cross(edge, measure) &&
+                                 (!is_to_cut || cut.cross(nodes_[count].state, a, b));
+            count += is_open ? 1 : 0;
+        };
+        if (goes_left) {  // from s to the left end
+            open(previous(t), s, beyond[corner_of(t)], node.left, right);
         }
-        if (goes_right && is_within && space.may_cross(of_right, measure)) {
-            nodes_[count] = {of_right, i, kNone, left, node.right, node.state};
-            count +=
-                !is_to_cut || cut.cross(nodes_[count].state, beyond[next_corner(corner_of(t))], s) ? 1 : 0;
+        if (goes_right) {  // from the right end to s
+            open(next(t), beyond[next_corner(corner_of(t))], s, left, node.right);
         }
         if (i + 1 == level_end) {
             ++reach_;  // one more than was walked: it was looked whether to go there
