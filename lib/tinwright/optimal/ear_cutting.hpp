@@ -35,9 +35,8 @@ struct SearchSpace {
     }
 };
 
-/// The measure that every new face has to stay below, by more than rounding can make up: on a plane, where
-/// all slopes are equal, nothing is to be changed for the last bit. Counts measures that cannot be told from
-/// it.
+/// The measure that every new face has to stay below, by more than the margin for ties: on a plane, where all
+/// slopes are equal, nothing is to be changed for the last bits. Counts measures within the margin.
 class MeasureLimit {
   public:
     explicit MeasureLimit(double limit)

@@ -29,7 +29,7 @@ class EmptyTriangleSearch {
     /// How deep the last search that failed looked, 1 for the face next to the face to improve; more than the
     /// horizon if it came that far.
     [[nodiscard]] unsigned reach() const { return reach_; }
-    /// Faces looked at, by all searches that failed.
+    /// Faces looked at and ears cut, by all searches.
     [[nodiscard]] std::size_t visits() const { return visits_; }
 
   private:
