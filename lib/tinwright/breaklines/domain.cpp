@@ -42,8 +42,9 @@ double height_ratio(const Tin& tin, HalfEdgeId h) {
 
 /// `length` in keys; where it is decimal and so is the lattice, exactly the number meant.
 double squared_in_keys(const Lattice& lattice, double length) {
-    const double keys = lattice.decimals() >= 0 ? scaled_decimal(length, lattice.decimals())
-                                                : std::ldexp(length, -lattice.exponent());
+    const double keys = lattice.decimals() >= 0
+                            ? std::ldexp(scaled_decimal(length, lattice.decimals()), lattice.refinement())
+                            : std::ldexp(length, -lattice.exponent());
     return keys * keys;
 }
 
@@ -60,6 +61,9 @@ std::size_t open_border(Tin& tin, const RankOf& rank_of) {
         is_on_border[mesh.destination(h).value] = true;
     }
     const auto consider = [&](HalfEdgeId h) {
+        if (mesh.is_constrained(h)) {
+            return;
+        }
         const VertexId apex = mesh.origin(previous(h));
         if (is_on_border[apex.value]) {
             return;

@@ -2,7 +2,9 @@
 #define TINWRIGHT_BREAKLINES_DOMAIN_HPP
 
 #include <cstddef>
+#include <span>
 
+#include "tinwright/breaklines/breakline.hpp"
 #include "tinwright/mesh/tin.hpp"
 
 /// Which faces are terrain. Decided on the Delaunay TIN, before anything is optimised.
@@ -15,16 +17,23 @@ struct DomainRule {
 };
 
 struct DomainReport {
+    std::size_t cut_faces = 0;      ///< faces marked outside by boundaries and holes
     std::size_t trimmed_faces = 0;  ///< border faces marked outside by the rule
     std::size_t void_faces = 0;     ///< faces marked outside by `drop_long_faces`
 };
+
+/// Marks the faces that boundaries and holes cut off: those inside no polygon of role Boundary, if there is
+/// any, and those inside one of role Hole. Decided by walking the mesh from outside the hull and counting
+/// the rings passed, so only the rings' traces must be right, not their directions.
+/// `lines`: those that `tin.traces` number. Returns how many faces were marked. O(slots + traces log n).
+std::size_t apply_polygons(Tin& tin, std::span<const Breakline> lines);
 
 /// Marks the faces outside the domain; every sample stays on or inside its border, which remains one
 /// closed curve per surface without pinches. Faces already outside stay outside.
 ///
 /// Trimmed: as long as there is one, the flattest needle on the border is dropped. A needle is a face with
 /// exactly one border edge, whose opposite vertex is not on the border, and whose height over the border
-/// edge is less than a tenth of that edge: a rule without scale.
+/// edge is less than a tenth of that edge: a rule without scale. No face goes through a constrained edge.
 /// Concave: as long as there is one, the longest border edge above `length` is opened, by dropping its face
 /// if the opposite vertex is not on the border [duckham2008].
 /// Returns how many faces were dropped. O(n + b log b), b border faces looked at. Result independent of

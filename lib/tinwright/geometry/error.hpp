@@ -52,6 +52,21 @@ class DuplicateError : public InputError {
     std::size_t count_;
 };
 
+/// Lines cannot be used as they are.
+class BreaklineError : public InputError {
+  public:
+    /// `lines`: indices of the offending lines in the order they were handed in, may be empty; `samples`
+    /// likewise.
+    explicit BreaklineError(const std::string& message, std::vector<std::size_t> lines = {},
+                            std::vector<std::size_t> samples = {})
+        : InputError(message, std::move(samples)), lines_(std::move(lines)) {}
+
+    [[nodiscard]] const std::vector<std::size_t>& lines() const { return lines_; }
+
+  private:
+    std::vector<std::size_t> lines_;
+};
+
 /// A file, folder or driver failed us.
 class IoError : public Error {
     using Error::Error;

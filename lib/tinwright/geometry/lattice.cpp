@@ -26,11 +26,17 @@ constexpr std::array<double, kMostDecimals + 1> kPowersOfTen = {
 // Below 2^51, x * 10^d rounds to within half a step of the integer it stands for.
 constexpr double kStepLimit = 2251799813685248.0;
 
-bool is_decimal(double value, double power_of_ten) {
-    const double scaled = value * power_of_ten;
+// Whether `value` is a whole number of steps, `steps_per_unit` of them a unit.
+bool is_whole(double value, double steps_per_unit) {
+    const double scaled = value * steps_per_unit;
     const double steps = Lattice::nearest_integer(scaled);
     // Whole numbers are common enough to spare them the division.
-    return std::abs(scaled) < kStepLimit && (power_of_ten == 1 ? steps : steps / power_of_ten) == value;
+    return std::abs(scaled) < kStepLimit && (steps_per_unit == 1 ? steps : steps / steps_per_unit) == value;
+}
+
+// Steps a unit for so many decimals, each step divided by 2^refinement.
+double steps_of(int decimals, int refinement) {
+    return std::ldexp(kPowersOfTen[static_cast<std::size_t>(std::min(decimals, kMostDecimals))], refinement);
 }
 
 constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
@@ -53,31 +59,38 @@ struct Survey {
 
 bool is_finite(const Point3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
+// What is surveyed, and on which kind of lattice.
+struct SurveyRequest {
+    std::span<const Point3> points;
+    bool has_elevations = true;
+    int refinement = 0;
+};
+
 // Raises `decimals` until both coordinates have no more of them.
-int raise_decimals(int decimals, const Point3& p) {
-    while (decimals <= kMostDecimals &&
-           !(is_decimal(p.x, kPowersOfTen[static_cast<std::size_t>(decimals)]) &&
-             is_decimal(p.y, kPowersOfTen[static_cast<std::size_t>(decimals)]))) {
+int raise_decimals(int decimals, int refinement, const Point3& p) {
+    while (decimals <= kMostDecimals && !(is_whole(p.x, steps_of(decimals, refinement)) &&
+                                          is_whole(p.y, steps_of(decimals, refinement)))) {
         ++decimals;
     }
     return decimals;
 }
 
-Survey survey_range(std::span<const Point3> samples, std::size_t begin, std::size_t end, Survey seen) {
+Survey survey_range(const SurveyRequest& request, std::size_t begin, std::size_t end, Survey seen) {
     Box bounds = seen.bounds;
     int decimals = seen.decimals;
-    double power = kPowersOfTen[static_cast<std::size_t>(std::min(decimals, kMostDecimals))];
+    double steps = steps_of(decimals, request.refinement);
     for (std::size_t i = begin; i != end; ++i) {
-        const Point3& p = samples[i];
-        // What is a decimal is finite.
-        const bool is_plain = is_decimal(p.x, power) && is_decimal(p.y, power) && std::isfinite(p.z);
+        const Point3 p{request.points[i].x, request.points[i].y,
+                       request.has_elevations ? request.points[i].z : 0.0};
+        // What is a whole number of steps is finite.
+        const bool is_plain = is_whole(p.x, steps) && is_whole(p.y, steps) && std::isfinite(p.z);
         if (!is_plain) {
             if (!is_finite(p)) {
                 seen.first_bad = std::min(seen.first_bad, i);
                 continue;
             }
-            decimals = raise_decimals(decimals, p);
-            power = kPowersOfTen[static_cast<std::size_t>(std::min(decimals, kMostDecimals))];
+            decimals = raise_decimals(decimals, request.refinement, p);
+            steps = steps_of(decimals, request.refinement);
         }
         bounds.add(p.x, p.y);
     }
@@ -90,13 +103,38 @@ constexpr int kLeastExponent = -960;  // quanta and their reciprocals stay well 
 
 constexpr std::size_t kGrain = 1U << 14U;
 
-Survey survey(std::span<const Point3> samples) {
+Survey survey(const SurveyRequest& request) {
     return tbb::parallel_reduce(
-        tbb::blocked_range<std::size_t>(0, samples.size(), kGrain), Survey{},
+        tbb::blocked_range<std::size_t>(0, request.points.size(), kGrain), Survey{},
         [&](const tbb::blocked_range<std::size_t>& range, const Survey& seen) {
-            return survey_range(samples, range.begin(), range.end(), seen);
+            return survey_range(request, range.begin(), range.end(), seen);
         },
         Survey::merge);
+}
+
+// Decimals of all points on a lattice refined by so many bits; beyond kMostDecimals when there are none. A
+// few points tell most data off.
+int find_decimals(const std::array<std::span<const Point3>, 2>& points, int refinement) {
+    constexpr std::size_t kGlance = 64;
+    int decimals = 0;
+    for (const bool is_glance : {true, false}) {
+        for (const std::span<const Point3> part : points) {
+            const auto seen_part = is_glance ? part.first(std::min(part.size(), kGlance)) : part;
+            if (decimals <= kMostDecimals) {
+                decimals = std::max(decimals, survey({seen_part, false, refinement}).decimals);
+            }
+        }
+    }
+    return decimals;
+}
+
+[[noreturn]] void throw_bad(std::span<const Point3> samples, std::size_t first_bad) {
+    const Point3& bad = samples[first_bad];
+    const bool is_elevation = std::isfinite(bad.x) && std::isfinite(bad.y);
+    throw InputError(is_elevation ? "the elevation of the sample at " + location_text({bad.x, bad.y}) +
+                                        " is not a finite number; remove the sample or give its z"
+                                  : "a sample's x or y is not a finite number; remove it",
+                     {first_bad});
 }
 
 // Exponent of the lowest set bit of a finite number; a large number for zero.
@@ -151,17 +189,39 @@ Lattice Lattice::binary(int exponent, Key2 origin, bool is_exact) {
     return lattice;
 }
 
+Lattice Lattice::refined(int bits) const {
+    Lattice fine = *this;
+    fine.origin_ = {std::ldexp(origin_.x, bits), std::ldexp(origin_.y, bits)};
+    fine.steps_per_unit_ = std::ldexp(steps_per_unit_, bits);
+    fine.exponent_ -= decimals_ < 0 ? bits : 0;
+    fine.refinement_ += bits;
+    return fine;
+}
+
+int Lattice::refinement_room(double largest) const {
+    // Half the range of keys stays free, and a quarter of that of steps.
+    int bits = 0;
+    const double from_zero = largest + std::max(std::abs(origin_.x), std::abs(origin_.y));
+    while (refinement_ + bits < kRefinementBits && std::ldexp(largest, bits + 1) < kKeyLimit / 2 &&
+           std::ldexp(from_zero, bits + 1) < kStepLimit / 4) {
+        ++bits;
+    }
+    return bits;
+}
+
 double Lattice::quantum() const { return 1 / steps_per_unit_; }
 
-FoundLattice find_lattice(std::span<const Point3> samples) {
-    const Survey seen = survey(samples);
+FoundLattice find_lattice(std::span<const Point3> samples, std::span<const Point3> line_points) {
+    Survey seen = survey({samples});
     if (seen.first_bad != kNone) {
-        const Point3& bad = samples[seen.first_bad];
-        const bool is_elevation = std::isfinite(bad.x) && std::isfinite(bad.y);
-        throw InputError(is_elevation ? "the elevation of the sample at " + location_text({bad.x, bad.y}) +
-                                            " is not a finite number; remove the sample or give its z"
-                                      : "a sample's x or y is not a finite number; remove it",
-                         {seen.first_bad});
+        throw_bad(samples, seen.first_bad);
+    }
+    if (!line_points.empty()) {
+        const Survey of_lines = survey({line_points, false});
+        if (of_lines.first_bad != kNone) {
+            throw InputError("a line's x or y is not a finite number; remove the line");
+        }
+        seen = Survey::merge(seen, of_lines);
     }
     const Box& bounds = seen.bounds;
     if (bounds.is_empty()) {
@@ -184,6 +244,17 @@ FoundLattice find_lattice(std::span<const Point3> samples) {
         return {Lattice::decimal(seen.decimals, plain.key({bounds.x_min, bounds.y_min})), bounds};
     }
 
+    const int decimals = find_decimals({samples, line_points}, kRefinementBits);
+    const double steps_per_unit = steps_of(decimals, kRefinementBits);
+    if (decimals <= kMostDecimals && largest * steps_per_unit < kStepLimit &&
+        widest(bounds, [&](double v) { return Lattice::nearest_integer(v * steps_per_unit); }) < kKeyLimit) {
+        const auto whole = [&](double v) { return Lattice::nearest_integer(v * steps_per_unit); };
+        // The origin has to lie on the unrefined lattice.
+        const double bits = std::ldexp(1.0, kRefinementBits);
+        const Key2 origin{std::floor(whole(bounds.x_min) / bits), std::floor(whole(bounds.y_min) / bits)};
+        return {Lattice::decimal(decimals, origin).refined(kRefinementBits), bounds};
+    }
+
     const double extent = std::max(bounds.x_max - bounds.x_min, bounds.y_max - bounds.y_min);
     const auto fits = [&](int exponent) {
         const double step = std::ldexp(1.0, exponent);
@@ -192,7 +263,8 @@ FoundLattice find_lattice(std::span<const Point3> samples) {
                widest(bounds, [&](double v) { return std::nearbyint(v / step); }) < kKeyLimit;
     };
     // Below a 2^46th of the extent no exact lattice is left to be found.
-    int exponent = lowest_bit(samples, extent > 0 ? std::ilogb(extent) - 46 : kLeastExponent);
+    const int floor = extent > 0 ? std::ilogb(extent) - 46 : kLeastExponent;
+    int exponent = std::min(lowest_bit(samples, floor), lowest_bit(line_points, floor));
     const bool is_exact = fits(exponent);
     if (!is_exact) {
         // As fine as doubles at the largest coordinate are, but for two bits, or as coarse as the limit

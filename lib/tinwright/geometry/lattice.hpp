@@ -34,6 +34,14 @@ class Lattice {
     /// Steps of 2^exponent; same condition on the origin.
     static Lattice binary(int exponent, Key2 origin, bool is_exact);
 
+    /// The same lattice with every step divided by 2^bits, for points that are made rather than given. Key k
+    /// becomes k * 2^bits and keeps its position bit for bit. `bits`: 0 to what `refinement_room` allows.
+    [[nodiscard]] Lattice refined(int bits) const;
+    /// Bits that the lattice can be refined by, at most kRefinementBits, when keys go up to `largest`.
+    [[nodiscard]] int refinement_room(double largest) const;
+    /// Bits by which the lattice is finer than the data asked for.
+    [[nodiscard]] int refinement() const { return refinement_; }
+
     /// Length of one step, CRS units.
     [[nodiscard]] double quantum() const;
     /// Number of decimals of a decimal lattice, -1 for a binary one.
@@ -66,11 +74,16 @@ class Lattice {
 
   private:
     Key2 origin_{};
-    double steps_per_unit_ = 1;  // 10^decimals or 2^-exponent, exact either way
+    double steps_per_unit_ = 1;  // 10^decimals or 2^-exponent, times 2^refinement: exact either way
     int decimals_ = 0;
     int exponent_ = 0;
+    int refinement_ = 0;
     bool is_exact_ = true;
 };
+
+/// Made points get a lattice 2^12 = 4096 times finer than the data's: a survey to the centimetre gets its
+/// Steiner points to 2.5 micrometres.
+inline constexpr int kRefinementBits = 12;
 
 /// A lattice with the bounding box (CRS units) of the samples it was found from.
 struct FoundLattice {
@@ -78,15 +91,17 @@ struct FoundLattice {
     Box bounds;
 };
 
-/// Finds the coarsest lattice that holds the samples' x and y: 10^-d with the fewest decimals, else a
-/// power of two. Where neither holds them all in 2^45 steps and the data are not decimal, the finest power of
-/// two that spans them (and a 2^51st of the largest coordinate) is taken and `is_exact()` is false.
+/// Finds the coarsest lattice that holds the samples' x and y: 10^-d with the fewest decimals, else 10^-d /
+/// 2^kRefinementBits (data with made points among them), else a power of two. Where neither holds them all in
+/// 2^45 steps and the data are not decimal, the finest power of two that spans them (and a 2^51st of the
+/// largest coordinate) is taken and `is_exact()` is false.
 ///
-/// `samples`: n of them, any order; the result does not depend on it.
+/// `samples`: n of them, any order; the result does not depend on it. `line_points`: more of them, whose x
+/// and y count in the same way; their z is not looked at.
 /// Throws InputError naming the first sample with an x, y or z that is not finite, and for decimal data
 /// whose extent needs more than 2^45 steps.
 /// Cost: O(n), parallel inside the caller's task arena. [DESIGN of keys: docs/robustness.md]
-FoundLattice find_lattice(std::span<const Point3> samples);
+FoundLattice find_lattice(std::span<const Point3> samples, std::span<const Point3> line_points = {});
 
 }  // namespace tinwright
 

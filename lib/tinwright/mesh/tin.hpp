@@ -2,6 +2,7 @@
 #define TINWRIGHT_MESH_TIN_HPP
 
 #include <cstdint>
+#include <vector>
 
 #include "tinwright/geometry/box.hpp"
 #include "tinwright/geometry/large_vector.hpp"
@@ -11,17 +12,32 @@
 
 namespace tinwright {
 
+/// That an edge is part of a line: the line's number is an index into whatever lines the TIN was made with.
+struct LineTrace {
+    VertexId a;  ///< a < b
+    VertexId b;
+    std::uint32_t line;
+    friend auto operator<=>(const LineTrace&, const LineTrace&) = default;
+};
+
 /// A triangulated irregular network: connectivity, and one position and elevation a vertex.
 /// The value that every later step takes and gives.
 struct Tin {
-    /// `sample` of a vertex that no sample gave.
+    /// `sample` of a Steiner point.
     static constexpr std::uint32_t kNoSample = 0xFFFFFFFFU;
+    /// `sample` of a vertex made where lines cross.
+    static constexpr std::uint32_t kCrossing = 0xFFFFFFFEU;
 
     Lattice lattice;
-    LargeVector<Key2> keys;             ///< one a vertex, distinct, in the order of `curve.hpp`
-    LargeVector<double> z;              ///< one a vertex, in the samples' unit
-    LargeVector<std::uint32_t> sample;  ///< index of the sample each vertex came from, or kNoSample
+    LargeVector<Key2> keys;  ///< one a vertex, distinct, in the order of `curve.hpp`
+    LargeVector<double> z;   ///< one a vertex, in the samples' unit
+    /// What each vertex came from: the index of a sample, or the number of samples plus that of a line's
+    /// point (counted through all lines), or one of the two values above.
+    LargeVector<std::uint32_t> sample;
     TriangleMesh mesh;
+    /// Which constrained edges are parts of which lines; ascending, distinct. Constrained edges of the border
+    /// need not be part of any.
+    std::vector<LineTrace> traces;
 
     [[nodiscard]] std::size_t vertex_count() const { return keys.size(); }
     [[nodiscard]] Key2 key(VertexId v) const { return keys[v.value]; }

@@ -4,18 +4,28 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <vector>
 
+#include "tinwright/breaklines/breakline.hpp"
 #include "tinwright/breaklines/domain.hpp"
+#include "tinwright/breaklines/line_conflict.hpp"
+#include "tinwright/breaklines/noding.hpp"
+#include "tinwright/delaunay/conforming_delaunay.hpp"
 #include "tinwright/delaunay/sample_vertices.hpp"
 #include "tinwright/geometry/progress.hpp"
 #include "tinwright/mesh/tin.hpp"
 #include "tinwright/optimal/edge_insertion.hpp"
 
-/// The front door: samples and options in, a TIN and a report out.
+/// The front door: samples, lines and options in, a TIN and a report out.
 namespace tinwright {
 
 struct TriangulateOptions {
     DuplicateOptions duplicates;
+    NodingOptions noding;  ///< its progress is not used
+    /// Samples closer than this to a line (CRS units, >= 0), but not on it, are reported.
+    double line_tolerance = 0;
+    /// Makes the triangulation conform to the lines by Steiner points; empty: constrained Delaunay.
+    std::optional<ConformingOptions> conforming;
     DomainRule domain;
     std::optional<double> max_edge;  ///< faces with a longer edge (CRS units) are voids
     /// Makes the TIN optimal after the domain is decided; empty: it stays Delaunay.
@@ -24,16 +34,29 @@ struct TriangulateOptions {
     Progress progress;
 };
 
+/// What became of the lines.
+struct LinesReport {
+    std::size_t lines = 0;
+    std::size_t line_points = 0;        ///< points of the lines, as they came
+    std::size_t crossing_vertices = 0;  ///< vertices made where lines cross
+    std::size_t draped_vertices = 0;    ///< vertices of lines that got z from the samples' TIN
+    std::vector<LineConflict> conflicts;
+    /// Whether all edges of lines are Delaunay edges of all vertices (then no optimum was asked for).
+    bool is_conforming = true;
+    std::optional<ConformingReport> conforming;  ///< only when asked for
+};
+
 struct TriangulateReport {
     std::size_t samples = 0;
-    Box bounds;  ///< of the samples, CRS units
+    Box bounds;  ///< of the samples and lines, CRS units
     DuplicateReport duplicates;
+    LinesReport lines;
     std::size_t faces = 0;          ///< terrain faces
     std::size_t hull_vertices = 0;  ///< vertices on the convex hull, collinear ones included
     DomainReport domain;
     std::optional<OptimizeReport> optimize;
     double triangulate_seconds = 0;  ///< lattice, sort and Delaunay
-    double constrain_seconds = 0;    ///< domain
+    double constrain_seconds = 0;    ///< lines, Steiner points and domain
 };
 
 struct Triangulated {
@@ -41,14 +64,21 @@ struct Triangulated {
     TriangulateReport report;
 };
 
-/// Builds the TIN of the samples within the domain asked for: the Delaunay one, or the one that is optimal
-/// under a criterion.
+/// Builds the TIN of samples and lines within the domain asked for: the Delaunay one, constrained by or
+/// conforming to the lines, or the one that is optimal under a criterion with the lines in it.
 ///
-/// `samples`: n >= 3, CRS units, any order. Same set of samples and options, same TIN.
-/// Throws InputError: fewer than three distinct locations, all of them collinear, and what
-/// `make_sample_vertices` and `optimize` throw; UsageError for options out of range; Cancelled.
+/// `samples`: n of them, CRS units, any order. `lines`: any order, with crossings, overlaps and what else
+/// `node_lines` sorts out; samples and points of lines have three distinct locations or more. Same set of
+/// samples and lines and same options, same TIN. Every line is in the result as a chain of constrained edges
+/// (`Tin::traces`). A sample on a line is treated as a duplicate of the line there.
+/// Order of work: Delaunay of all vertices, lines, Steiner points, boundary and holes, domain rule, optimum,
+/// voids. The area outside samples and lines with z of their own is no terrain, whatever is draped there.
+/// Throws InputError: too few locations, all of them collinear, and what
+/// `make_sample_vertices`, `node_lines` and `optimize` throw; UsageError for options out of range; Cancelled.
 /// O(n log n); at most 110 bytes a sample at the peak, the samples themselves not counted. To be optimised
 /// costs extra, see `optimize`.
+Triangulated triangulate(std::span<const Point3> samples, std::span<const Breakline> lines,
+                         const TriangulateOptions& options = {});
 Triangulated triangulate(std::span<const Point3> samples, const TriangulateOptions& options = {});
 
 }  // namespace tinwright

@@ -40,12 +40,16 @@ std::optional<ScanAxis> make_decimal_axis(const AxisRequest& request) {
     const int decimals = request.lattice.decimals();
     const int exponent = std::min({-decimals, start.exponent, step.exponent});
     const std::optional<Int128> quantum_steps = whole_steps({1, -decimals}, exponent);
-    const std::optional<Int128> start_steps = whole_steps(start, exponent);
-    const std::optional<Int128> step_steps = whole_steps(step, exponent);
-    constexpr Int128 kStepLimit = static_cast<Int128>(1) << 90U;  // leaves room to multiply by 2^33
+    std::optional<Int128> start_steps = whole_steps(start, exponent);
+    std::optional<Int128> step_steps = whole_steps(step, exponent);
+    constexpr Int128 kStepLimit = static_cast<Int128>(1) << 78U;  // leaves room to multiply by 2^45
     if (!quantum_steps || !start_steps || !step_steps || *step_steps > kStepLimit) {
         return std::nullopt;
     }
+    // The lattice's steps, and so the half steps of 10^exponent, are divided by 2^refinement.
+    const Int128 refinement = Int128{1} << static_cast<unsigned>(request.lattice.refinement());
+    *start_steps *= refinement;
+    *step_steps *= refinement;
     ScanAxis axis;
     axis.scale = 2 * static_cast<double>(*quantum_steps);
     if (axis.scale * std::max(request.key_limit, 1.0) > kExactLimit) {
@@ -80,8 +84,10 @@ ScanAxis make_rounded_axis(const AxisRequest& request) {
            2 * axis.scale * std::max(request.key_limit, 1.0) <= kExactLimit) {
         axis.scale *= 2;
     }
-    const long double per_unit = is_decimal ? static_cast<long double>(std::pow(10.0, lattice.decimals()))
-                                            : std::ldexp(1.0L, -lattice.exponent());
+    const long double per_unit =
+        is_decimal
+            ? std::ldexp(static_cast<long double>(std::pow(10.0, lattice.decimals())), lattice.refinement())
+            : std::ldexp(1.0L, -lattice.exponent());
     axis.centres.resize(static_cast<std::size_t>(request.count));
     for (std::int64_t i = 0; i < request.count; ++i) {
         const double centre = request.start + request.sign * (static_cast<double>(i) + 0.5) * request.step;

@@ -1,0 +1,47 @@
+#ifndef TINWRIGHT_DELAUNAY_CONFORMING_DELAUNAY_HPP
+#define TINWRIGHT_DELAUNAY_CONFORMING_DELAUNAY_HPP
+
+#include <cstddef>
+
+#include "tinwright/geometry/progress.hpp"
+#include "tinwright/mesh/tin.hpp"
+
+namespace tinwright {
+
+enum class ConformingMethod {
+    Split,    ///< few Steiner points: edges are split where the vertex that disturbs them projects
+    Blocking  ///< [tan1993, Ch. 6]: a number of points bounded by the number of vertices and edges alone
+};
+
+struct ConformingOptions {
+    ConformingMethod method = ConformingMethod::Split;
+    /// Steiner points allowed; 0: ten a vertex and a hundred an edge of a line, which nothing seen comes
+    /// near.
+    std::size_t max_steiner = 0;
+    Progress progress;
+};
+
+struct ConformingReport {
+    std::size_t steiner_vertices = 0;
+    /// Whether every edge of a line has an empty disk: some circle through its ends with no vertex inside.
+    bool is_conforming = true;
+    std::size_t open_edges = 0;  ///< edges without one, when stopped by the budget or by the lattice's step
+    std::size_t blocking_disks = 0;     ///< Blocking only
+    std::size_t blocking_vertices = 0;  ///< Blocking only: of the Steiner points, those on blocking circles
+};
+
+/// Adds Steiner points on the edges of lines (`tin.traces`) until the triangulation is Delaunay and every
+/// such edge in it. z of a Steiner point is linear along the edge it was put on; its position is a lattice
+/// point less than a step away from that edge, and never outside the hull.
+///
+/// `tin`: constrained Delaunay, nothing marked outside, constrained edges those of its traces. New vertices
+/// are sorted in, so vertex numbers change; traces follow.
+/// Throws Cancelled. O((n + s) log n) for s Steiner points in practice.
+ConformingReport make_conforming(Tin& tin, const ConformingOptions& options = {});
+
+/// Number of edges of lines that lie in no empty disk: exact. O(n).
+std::size_t count_open_edges(const Tin& tin);
+
+}  // namespace tinwright
+
+#endif

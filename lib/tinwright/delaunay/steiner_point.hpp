@@ -1,0 +1,61 @@
+#ifndef TINWRIGHT_DELAUNAY_STEINER_POINT_HPP
+#define TINWRIGHT_DELAUNAY_STEINER_POINT_HPP
+
+#include <cstddef>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "tinwright/mesh/tin.hpp"
+
+namespace tinwright {
+
+/// Puts new vertices into a constrained Delaunay TIN, which stays one. While it is at work, new vertices
+/// stand behind the old ones, out of the curve's order; `finish` sorts them in.
+class SteinerInserter {
+  public:
+    /// `tin`: as `make_conforming` takes it; must outlive this object and not be changed by others.
+    explicit SteinerInserter(Tin& tin);
+
+    [[nodiscard]] const Tin& tin() const { return tin_; }
+    /// Number of vertices that were there before.
+    [[nodiscard]] std::size_t old_vertex_count() const { return old_count_; }
+
+    /// The half-edge from a to b. O(degree of a).
+    [[nodiscard]] std::optional<HalfEdgeId> find_half_edge(VertexId a, VertexId b) const;
+    /// A half-edge that starts at v, of a face that is no ghost where there is one.
+    [[nodiscard]] HalfEdgeId some_half_edge(VertexId v) const { return start_[v.value]; }
+
+    /// The edge of a line, as it was before any insertion, that an edge between a and b is part of: index
+    /// into `line_edges()`. The edge must be constrained.
+    [[nodiscard]] std::uint32_t line_edge_of(VertexId a, VertexId b) const;
+    /// The distinct edges of lines before any insertion: (a, b) with a < b, ascending.
+    [[nodiscard]] const std::vector<std::pair<VertexId, VertexId>>& line_edges() const { return line_edges_; }
+
+    /// Splits the constrained edge of `h`, which must not be on the hull, near the place `t` of the way from
+    /// its origin to its destination, 0 < t < 1: at the lattice point there that is closest to the line.
+    /// Empty, and nothing done, when there is no lattice point that keeps all faces counter-clockwise.
+    std::optional<VertexId> split(HalfEdgeId h, double t);
+    /// Puts a free vertex with elevation z at a lattice point strictly inside the hull; empty when the point
+    /// is a vertex already or on a constrained edge. The walk to it starts at `near`.
+    std::optional<VertexId> insert(Key2 key, double z, VertexId near);
+
+    /// Constrained edges (a, b) at the faces that the last insertion made or changed, in no special order;
+    /// each may be there more than once. Those of the vertex itself included.
+    [[nodiscard]] const std::vector<std::pair<VertexId, VertexId>>& touched() const { return touched_; }
+
+    /// Sorts the new vertices into the curve's order and cuts the traces at them. The object is done with.
+    void finish();
+
+  private:
+    Tin& tin_;
+    std::size_t old_count_ = 0;
+    std::vector<HalfEdgeId> start_;
+    std::vector<std::pair<VertexId, VertexId>> line_edges_;
+    std::vector<std::uint32_t> line_edge_;  // of the vertices made, by vertex - old_count_; kFree: none
+    std::vector<std::pair<VertexId, VertexId>> touched_;
+};
+
+}  // namespace tinwright
+
+#endif
