@@ -1,0 +1,25 @@
+#ifndef TINWRIGHT_MESH_MESH_WALK_HPP
+#define TINWRIGHT_MESH_MESH_WALK_HPP
+
+#include <optional>
+#include <vector>
+
+#include "tinwright/mesh/triangle_mesh.hpp"
+
+/// Ways through a mesh from one half-edge to the next.
+namespace tinwright {
+
+/// The next half-edge from the same origin, counter-clockwise.
+inline HalfEdgeId next_around(const TriangleMesh& mesh, HalfEdgeId h) { return mesh.twin(previous(h)); }
+
+/// For each vertex a half-edge that starts there, of a face that is no ghost where the vertex has one.
+/// Vertices without faces get half-edge 3, which is none. O(slots).
+std::vector<HalfEdgeId> find_starts(const TriangleMesh& mesh);
+inline constexpr HalfEdgeId kNoHalfEdge{3};
+
+/// The half-edge from the origin of `start` to `to`. O(degree of the origin).
+std::optional<HalfEdgeId> find_half_edge(const TriangleMesh& mesh, HalfEdgeId start, VertexId to);
+
+}  // namespace tinwright
+
+#endif
