@@ -2,6 +2,7 @@
 #define TINWRIGHT_DELAUNAY_STEINER_POINT_HPP
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -33,8 +34,9 @@ class SteinerInserter {
     [[nodiscard]] const std::vector<std::pair<VertexId, VertexId>>& line_edges() const { return line_edges_; }
 
     /// Splits the constrained edge of `h`, which must not be on the hull, near the place `t` of the way from
-    /// its origin to its destination, 0 < t < 1: at the lattice point there that is closest to the line.
-    /// Empty, and nothing done, when there is no lattice point that keeps all faces counter-clockwise.
+    /// its origin to its destination, 0 < t < 1: at a lattice point within half a step, in x or in y, of the
+    /// line's edge as it was, the closest to it of the few around. z is linear along that edge.
+    /// Empty, and nothing done, when no such lattice point keeps all faces counter-clockwise.
     std::optional<VertexId> split(HalfEdgeId h, double t);
     /// Puts a free vertex with elevation z at a lattice point strictly inside the hull; empty when the point
     /// is a vertex already or on a constrained edge. The walk to it starts at `near`.
@@ -48,12 +50,32 @@ class SteinerInserter {
     void finish();
 
   private:
+    /// `line_edge_` of a vertex that is on no edge of a line.
+    static constexpr std::uint32_t kFree = 0xFFFFFFFFU;
+
+    /// A lattice point that an edge could be split at.
+    struct Place {
+        double distance;  ///< from the line's edge, times that edge's length
+        double offset;    ///< from where it was wanted
+        Key2 key;
+    };
+
+    void find_places(std::uint32_t line_edge, Key2 from, Key2 to, double t);
+    [[nodiscard]] bool keeps_faces(HalfEdgeId h, Key2 place) const;
+    [[nodiscard]] HalfEdgeId locate(Key2 key, VertexId near) const;
+    VertexId add_vertex(Key2 key, double z, std::uint32_t line_edge);
+    void take_starts(FaceId f);
+    /// Restores the constrained Delaunay property around the faces of a new vertex.
+    void settle(VertexId v);
+
     Tin& tin_;
-    std::size_t old_count_ = 0;
+    std::size_t old_count_;
     std::vector<HalfEdgeId> start_;
     std::vector<std::pair<VertexId, VertexId>> line_edges_;
-    std::vector<std::uint32_t> line_edge_;  // of the vertices made, by vertex - old_count_; kFree: none
+    std::vector<std::uint32_t> line_edge_;  // of the vertices made, in the order they were made
     std::vector<std::pair<VertexId, VertexId>> touched_;
+    std::vector<HalfEdgeId> unsettled_;  // both kept for their memory
+    std::vector<Place> places_;
 };
 
 }  // namespace tinwright

@@ -8,13 +8,26 @@
 
 #include "tinwright/mesh/triangle_mesh.hpp"
 
-/// The changes a mesh can undergo, vertices and number of faces staying as they are.
+/// The changes a mesh can undergo.
 namespace tinwright {
 
 /// Replaces the edge of `h` by the other diagonal of its two faces' quadrilateral, which must be strictly
 /// convex; the edge must not be constrained, and both faces must be terrain. Afterwards `h` is the new edge,
 /// in the same face. O(1).
 void flip_edge(TriangleMesh& mesh, HalfEdgeId h);
+
+/// Splits the edge of `h`, between real vertices, by a new vertex, which becomes the last; its two faces,
+/// ghosts or not, become four. Both parts are constrained if the edge was, the two new edges are not; new
+/// faces are terrain if the halved one was. Afterwards `h` runs from its origin to the new vertex. Amortised
+/// O(1).
+VertexId split_edge(TriangleMesh& mesh, HalfEdgeId h);
+
+/// Splits a face that is no ghost into three by a new vertex, which becomes the last. Amortised O(1).
+VertexId split_face(TriangleMesh& mesh, FaceId f);
+
+/// Gives every vertex another number: v becomes new_ids[v]. O(slots), parallel inside the caller's task
+/// arena.
+void renumber_vertices(TriangleMesh& mesh, std::span<const VertexId> new_ids);
 
 /// A face that is to come into a cavity, with what lies across each of its edges.
 struct CavityFace {

@@ -1,0 +1,251 @@
+#include "tinwright/delaunay/conforming_delaunay.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <deque>
+#include <utility>
+#include <vector>
+
+#include "tinwright/delaunay/steiner_point.hpp"
+#include "tinwright/geometry/constructions.hpp"
+#include "tinwright/geometry/predicates.hpp"
+#include "tinwright/mesh/mesh_walk.hpp"
+
+namespace tinwright {
+
+namespace {
+
+// An edge is Delaunay if neither of its faces' circles holds the other face's apex; in a constrained Delaunay
+// triangulation it then has an empty disk. Edges of the hull always have one.
+bool is_open(const Tin& tin, HalfEdgeId h) {
+    const TriangleMesh& mesh = tin.mesh;
+    const VertexId apex = mesh.origin(previous(h));
+    const VertexId other = mesh.origin(previous(mesh.twin(h)));
+    return apex != kGhostVertex && other != kGhostVertex &&
+           incircle(tin.key(mesh.origin(h)), tin.key(mesh.destination(h)), tin.key(apex), tin.key(other)) > 0;
+}
+
+double distance(Key2 a, Key2 b) { return std::sqrt(squared_distance(a, b)); }
+
+/// Splits edges of lines until all of them are Delaunay.
+class Splitter {
+  public:
+    Splitter(SteinerInserter& inserter, std::size_t max_steiner, const Progress& progress)
+        : inserter_(inserter),
+          tin_(inserter.tin()),
+          max_steiner_(max_steiner),
+          progress_(progress),
+          generation_(tin_.vertex_count() - inserter.old_vertex_count(), 0),
+          fans_(inserter.old_vertex_count() + 1, 0) {
+        make_fans();
+    }
+
+    void run() {
+        for (const LineTrace& trace : tin_.traces) {
+            enqueue_open(trace.a, trace.b);
+        }
+        enqueue_steiner_edges();
+        while (!queue_.empty() && steiner_count() < max_steiner_) {
+            const auto [a, b] = queue_.front();
+            queue_.pop_front();
+            const std::optional<HalfEdgeId> h = inserter_.find_half_edge(a, b);
+            if (h && is_open(tin_, *h)) {
+                split(*h);
+            }
+            if ((++steps_ & 0xFFFU) == 0) {
+                report_progress(progress_, 1 - static_cast<double>(queue_.size()) /
+                                                   static_cast<double>(queue_.size() + steiner_count()));
+            }
+        }
+    }
+
+  private:
+    [[nodiscard]] Key2 key(VertexId v) const { return tin_.key(v); }
+    [[nodiscard]] std::size_t steiner_count() const {
+        return tin_.vertex_count() - inserter_.old_vertex_count();
+    }
+    [[nodiscard]] bool is_old(VertexId v) const { return v.value < inserter_.old_vertex_count(); }
+    [[nodiscard]] int generation(VertexId v) const {
+        return is_old(v) ? 0 : generation_[v.value - inserter_.old_vertex_count()];
+    }
+
+    void enqueue_open(VertexId a, VertexId b) {
+        const std::optional<HalfEdgeId> h = inserter_.find_half_edge(a, b);
+        if (h && tin_.mesh.is_constrained(*h) && is_open(tin_, *h)) {
+            queue_.emplace_back(a, b);
+        }
+    }
+
+    // Edges between Steiner points that were there before.
+    void enqueue_steiner_edges() {
+        for (auto v = static_cast<std::uint32_t>(inserter_.old_vertex_count()); v < tin_.vertex_count();
+             ++v) {
+            const HalfEdgeId first = inserter_.some_half_edge({v});
+            HalfEdgeId h = first;
+            do {
+                if (tin_.mesh.is_constrained(h)) {
+                    enqueue_open({v}, tin_.mesh.destination(h));
+                }
+                h = next_around(tin_.mesh, h);
+            } while (h != first);
+        }
+    }
+
+    // Numbers of the edges of lines at each vertex.
+    void make_fans() {
+        const auto& edges = inserter_.line_edges();
+        for (const auto& [a, b] : edges) {
+            ++fans_[a.value + 1];
+            ++fans_[b.value + 1];
+        }
+        for (std::size_t v = 1; v < fans_.size(); ++v) {
+            fans_[v] += fans_[v - 1];
+        }
+        fan_edges_.resize(2 * edges.size());
+        std::vector<std::uint32_t> next(fans_.begin(), fans_.end() - 1);
+        for (const auto& [a, b] : edges) {
+            fan_edges_[next[a.value]++] = b;
+            fan_edges_[next[b.value]++] = a;
+        }
+    }
+
+    // Whether the edges of lines at a vertex leave no gap of much more than a right angle. Projecting from
+    // one to the next then leads around the vertex, ever closer to it.
+    [[nodiscard]] bool is_closed_fan(VertexId v) const {
+        constexpr double kCosine = -0.05;
+        std::vector<double> angles;
+        for (std::uint32_t i = fans_[v.value]; i < fans_[v.value + 1]; ++i) {
+            const Key2 end = key(fan_edges_[i]);
+            angles.push_back(std::atan2(end.y - key(v).y, end.x - key(v).x));
+        }
+        if (angles.size() < 4) {
+            return false;
+        }
+        std::sort(angles.begin(), angles.end());
+        angles.push_back(angles.front() + 2 * 3.14159265358979323846);
+        for (std::size_t i = 0; i + 1 < angles.size(); ++i) {
+            if (angles[i + 1] - angles[i] >= 3.14 || std::cos(angles[i + 1] - angles[i]) < kCosine) {
+                return false;
+            }
+        }
+        return true;
+    }
+
+    // The end that the line's edge through a and b shares with one that `c` lies on.
+    [[nodiscard]] std::optional<VertexId> find_fan(std::uint32_t line_edge, VertexId c) const {
+        const auto [begin, end] = inserter_.line_edges()[line_edge];
+        if (is_old(c)) {
+            for (const VertexId v : {begin, end}) {
+                for (std::uint32_t i = fans_[v.value]; i < fans_[v.value + 1]; ++i) {
+                    if (fan_edges_[i] == c) {
+                        return v;
+                    }
+                }
+            }
+            return std::nullopt;
+        }
+        const std::uint32_t other = inserter_.line_edge_of(c, c);
+        if (other >= inserter_.line_edges().size()) {
+            return std::nullopt;
+        }
+        const auto [other_begin, other_end] = inserter_.line_edges()[other];
+        for (const VertexId v : {begin, end}) {
+            if (v == other_begin || v == other_end) {
+                return v;
+            }
+        }
+        return std::nullopt;
+    }
+
+    // The share of the way from a to b at a distance from `centre` that is a power of two; the middle when
+    // there is none.
+    [[nodiscard]] double shell(VertexId centre, VertexId a, VertexId b) const {
+        const double near = distance(key(centre), key(a));
+        const double far = distance(key(centre), key(b));
+        const double low = std::min(near, far);
+        const double high = std::max(near, far);
+        const double middle = 0.5 * (low + high);
+        double radius = std::exp2(std::round(std::log2(middle)));
+        if (radius <= low + 0.1 * (high - low) || radius >= high - 0.1 * (high - low)) {
+            radius = middle;
+        }
+        return (radius - near) / (far - near);
+    }
+
+    void split(HalfEdgeId h) {
+        constexpr double kMargin = 0.1;
+        constexpr int kDeep = 24;
+        const TriangleMesh& mesh = tin_.mesh;
+        const VertexId a = mesh.origin(h);
+        const VertexId b = mesh.destination(h);
+        VertexId c = mesh.origin(previous(h));
+        const VertexId d = mesh.origin(previous(mesh.twin(h)));
+        // The apex that sees the edge under the greater angle: the lesser cosine.
+        const auto cosine = [&](VertexId v) {
+            return inner_product(key(a), key(v), key(b)) /
+                   (distance(key(a), key(v)) * distance(key(b), key(v)));
+        };
+        c = cosine(d) < cosine(c) ? d : c;
+        const int generation_of_new = generation(c) + 1;
+        double t = inner_product(key(c), key(a), key(b)) / inner_product(key(b), key(a), key(b));
+        t = std::clamp(t, kMargin, 1 - kMargin);
+        const std::optional<VertexId> fan = find_fan(inserter_.line_edge_of(a, b), c);
+        if (fan && (generation_of_new >= kDeep || is_closed_fan(*fan))) {
+            t = shell(*fan, a, b);
+        }
+        std::optional<VertexId> made = inserter_.split(h, t);
+        if (!made) {
+            made = inserter_.split(h, 0.5);
+        }
+        if (!made) {
+            return;  // no room left on the lattice: the edge stays open and is counted
+        }
+        generation_.push_back(generation_of_new);
+        for (const auto& [u, v] : inserter_.touched()) {
+            enqueue_open(u, v);
+        }
+    }
+
+    SteinerInserter& inserter_;
+    const Tin& tin_;
+    std::size_t max_steiner_;
+    const Progress& progress_;
+    std::deque<std::pair<VertexId, VertexId>> queue_;
+    std::vector<int> generation_;      // of Steiner points: how many were made one because of the other
+    std::vector<std::uint32_t> fans_;  // where a vertex's entries in fan_edges_ begin
+    std::vector<VertexId> fan_edges_;  // other ends of the edges of lines at each vertex
+    std::size_t steps_ = 0;
+};
+
+}  // namespace
+
+ConformingReport make_conforming(Tin& tin, const ConformingOptions& options) {
+    ConformingReport report;
+    const std::size_t old_count = tin.vertex_count();
+    SteinerInserter inserter(tin);
+    const std::size_t max_steiner =
+        options.max_steiner > 0 ? options.max_steiner : 10 * old_count + 100 * inserter.line_edges().size();
+    Splitter(inserter, max_steiner, options.progress).run();
+    inserter.finish();
+    report.steiner_vertices = tin.vertex_count() - old_count;
+    report.open_edges = count_open_edges(tin);
+    report.is_conforming = report.open_edges == 0;
+    return report;
+}
+
+std::size_t count_open_edges(const Tin& tin) {
+    const std::vector<HalfEdgeId> starts = find_starts(tin.mesh);
+    std::size_t open = 0;
+    for (std::size_t i = 0; i < tin.traces.size(); ++i) {
+        const auto& [a, b, line] = tin.traces[i];
+        if (i > 0 && tin.traces[i - 1].a == a && tin.traces[i - 1].b == b) {
+            continue;
+        }
+        const std::optional<HalfEdgeId> h = find_half_edge(tin.mesh, starts[a.value], b);
+        open += !h || is_open(tin, *h) ? 1U : 0U;
+    }
+    return open;
+}
+
+}  // namespace tinwright
