@@ -1,0 +1,115 @@
+#include "tinwright/delaunay/minimum_spanning_tree.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "tinwright/delaunay/delaunay.hpp"
+
+#include "support/cases.hpp"
+#include "support/oracles.hpp"
+#include "support/point_sets.hpp"
+#include "support/tins.hpp"
+
+using namespace tinwright;
+using namespace tinwright_tests;
+
+namespace {
+
+__extension__ using Int128 = __int128;
+
+// Squared length, then the ends: no two edges are equal.
+using Weight = std::tuple<Int128, std::uint32_t, std::uint32_t>;
+
+Weight weight(std::span<const Key2> keys, std::uint32_t a, std::uint32_t b) {
+    const Int128 x = static_cast<std::int64_t>(keys[b].x) - static_cast<std::int64_t>(keys[a].x);
+    const Int128 y = static_cast<std::int64_t>(keys[b].y) - static_cast<std::int64_t>(keys[a].y);
+    return {x * x + y * y, std::min(a, b), std::max(a, b)};
+}
+
+// Prim's method on the complete graph, O(n^2), in integers.
+std::vector<TreeEdge> prim(std::span<const Key2> keys) {
+    std::vector<std::uint32_t> outside(keys.size() - 1);
+    std::vector<Weight> best(keys.size());
+    for (std::uint32_t v = 1; v < keys.size(); ++v) {
+        outside[v - 1] = v;
+        best[v] = weight(keys, 0, v);
+    }
+    std::vector<TreeEdge> tree;
+    while (!outside.empty()) {
+        const auto next = std::min_element(outside.begin(), outside.end(),
+                                           [&](auto u, auto v) { return best[u] < best[v]; });
+        const std::uint32_t added = *next;
+        outside.erase(next);
+        tree.push_back({{std::get<1>(best[added])}, {std::get<2>(best[added])}});
+        for (const std::uint32_t v : outside) {
+            best[v] = std::min(best[v], weight(keys, added, v));
+        }
+    }
+    std::sort(tree.begin(), tree.end(), [&](const TreeEdge& x, const TreeEdge& y) {
+        return weight(keys, x.a.value, x.b.value) < weight(keys, y.a.value, y.b.value);
+    });
+    return tree;
+}
+
+}  // namespace
+
+TEST_SUITE("delaunay/minimum_spanning_tree") {
+    TEST_CASE("the tree is the one that Prim's method finds on all pairs of vertices") {
+        for (const KeyFamily& family : key_families()) {
+            CAPTURE(family.name);
+            for (int seed = 0; seed < cases(6); ++seed) {
+                CAPTURE(seed);
+                Random random(static_cast<std::uint64_t>(seed));
+                const Tin tin = delaunay_tin(family.make(random, seed % 2 == 0 ? 20 : 300));
+                CHECK(make_minimum_spanning_tree(tin.mesh, tin.keys) == prim(tin.keys));
+            }
+        }
+    }
+
+    TEST_CASE("the closed disk on an edge of the tree holds no third vertex") {
+        for (const KeyFamily& family : key_families()) {
+            CAPTURE(family.name);
+            for (int seed = 0; seed < cases(3); ++seed) {
+                CAPTURE(seed);
+                Random random(static_cast<std::uint64_t>(seed) + 100);
+                const Tin tin = delaunay_tin(family.make(random, 40));
+                std::size_t inside = 0;
+                for (const TreeEdge& edge : make_minimum_spanning_tree(tin.mesh, tin.keys)) {
+                    for (std::uint32_t v = 0; v < tin.vertex_count(); ++v) {
+                        const bool is_third = v != edge.a.value && v != edge.b.value;
+                        if (is_third &&
+                            oracle::angle_sign(tin.key(edge.a), tin.keys[v], tin.key(edge.b)) <= 0) {
+                            ++inside;
+                        }
+                    }
+                }
+                CHECK(inside == 0);
+            }
+        }
+    }
+
+    TEST_CASE("collinear vertices are joined in a row, two by their edge") {
+        const Tin row = delaunay_tin({{9, 9}, {0, 0}, {3, 3}, {4, 4}});
+        std::vector<std::pair<double, double>> joined;
+        for (const TreeEdge& edge : make_minimum_spanning_tree(row.mesh, row.keys)) {
+            const double a = row.key(edge.a).x;
+            const double b = row.key(edge.b).x;
+            joined.emplace_back(std::min(a, b), std::max(a, b));
+        }
+        CHECK(joined == std::vector<std::pair<double, double>>{{3, 4}, {0, 3}, {4, 9}});
+        const Tin pair = delaunay_tin({{5, 1}, {2, 7}});
+        CHECK(make_minimum_spanning_tree(pair.mesh, pair.keys) == std::vector<TreeEdge>{{{0}, {1}}});
+    }
+
+    TEST_CASE("on a square grid, where all lengths tie, the ends decide") {
+        const Tin tin = delaunay_tin(grid_keys(12, 9));
+        CHECK(make_minimum_spanning_tree(tin.mesh, tin.keys) == prim(tin.keys));
+    }
+}
