@@ -29,7 +29,8 @@ struct NodingOptions {
 struct NodedPiece {
     std::uint32_t a;  ///< index of a vertex, a < b
     std::uint32_t b;
-    std::uint32_t line;  ///< index of the line it is part of
+    std::uint32_t line;      ///< index of the line it is part of
+    std::uint32_t runs = 1;  ///< how often the line runs along it, in either direction
     friend auto operator<=>(const NodedPiece&, const NodedPiece&) = default;
 };
 
@@ -42,7 +43,7 @@ struct NodedLines {
     std::vector<double> z;   ///< one a key; `kDraped` where no line has one
     /// The first point of a line at each key, points counted through all lines in the order given.
     std::vector<std::uint32_t> origin;
-    std::vector<NodedPiece> pieces;       ///< ascending, distinct
+    std::vector<NodedPiece> pieces;       ///< by a, b, line; each triple once
     std::vector<LineConflict> conflicts;  ///< by location in curve order, then kind
     bool is_rounded = false;  ///< whether a crossing was moved to the lattice (by less than a step)
 };

@@ -238,7 +238,7 @@ std::size_t count_open_edges(const Tin& tin) {
     const std::vector<HalfEdgeId> starts = find_starts(tin.mesh);
     std::size_t open = 0;
     for (std::size_t i = 0; i < tin.traces.size(); ++i) {
-        const auto& [a, b, line] = tin.traces[i];
+        const auto& [a, b, line, runs] = tin.traces[i];
         if (i > 0 && tin.traces[i - 1].a == a && tin.traces[i - 1].b == b) {
             continue;
         }

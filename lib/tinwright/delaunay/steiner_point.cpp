@@ -263,9 +263,9 @@ void SteinerInserter::finish() {
 
     std::vector<LineTrace> traces;
     traces.reserve(tin_.traces.size() + chains.size());
-    const auto add = [&](VertexId a, VertexId b, std::uint32_t line) {
+    const auto add = [&](VertexId a, VertexId b, const LineTrace& whole) {
         const auto [first, second] = std::minmax(new_ids[a.value], new_ids[b.value]);
-        traces.push_back({first, second, line});
+        traces.push_back({first, second, whole.line, whole.runs});
     };
     auto on_edge = chains.begin();
     for (std::size_t i = 0, line_edge = 0; i < tin_.traces.size(); ++line_edge) {
@@ -276,10 +276,10 @@ void SteinerInserter::finish() {
         for (; i < tin_.traces.size() && tin_.traces[i].a == a && tin_.traces[i].b == b; ++i) {
             VertexId from = a;
             for (auto vertex = on_edge; vertex != chain_end; ++vertex) {
-                add(from, vertex->vertex, tin_.traces[i].line);
+                add(from, vertex->vertex, tin_.traces[i]);
                 from = vertex->vertex;
             }
-            add(from, b, tin_.traces[i].line);
+            add(from, b, tin_.traces[i]);
         }
         on_edge = chain_end;
     }

@@ -17,6 +17,7 @@ struct LineTrace {
     VertexId a;  ///< a < b
     VertexId b;
     std::uint32_t line;
+    std::uint32_t runs = 1;  ///< how often the line runs along the edge: a ring with a spike runs there twice
     friend auto operator<=>(const LineTrace&, const LineTrace&) = default;
 };
 
