@@ -44,12 +44,15 @@ struct LineConflict {
 
     Kind kind = Kind::Crossing;
     Action action = Action::Reported;
-    std::uint32_t line_a = kNone;  ///< index of a line; with two of them, line_a <= line_b
+    /// Index of a line; with two of them, line_a <= line_b, but for Dangling the line that ends there.
+    std::uint32_t line_a = kNone;
     std::uint32_t line_b = kNone;
     std::uint32_t sample = kNone;                           ///< index of a sample
     Point2 location;                                        ///< CRS units
     double z_a = std::numeric_limits<double>::quiet_NaN();  ///< of line_a there; NaN: none
     double z_b = std::numeric_limits<double>::quiet_NaN();  ///< of line_b, or of the sample
+    /// Index of an earlier sample at the same location, with z_a, where two samples clash.
+    std::uint32_t other_sample = kNone;
 
     static constexpr std::size_t kKinds = 16;
 };
