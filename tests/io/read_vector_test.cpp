@@ -15,78 +15,21 @@
 #include "tinwright/io/vector_features.hpp"
 
 #include "reading.hpp"
+#include "vector_files.hpp"
 
 using tinwright::InputError;
 using tinwright::Point3;
 using tinwright::UsageError;
 using namespace tinwright::io;
+using tinwright_tests::add_feature;
 using tinwright_tests::MemoryFile;
 using tinwright_tests::message_of;
 using tinwright_tests::read;
+using tinwright_tests::VectorFile;
 
 namespace {
 
 using Dataset = std::unique_ptr<GDALDataset, CloseDataset>;
-
-/// A vector file in memory under construction; closed, and with that complete, by close().
-class VectorFile {
-  public:
-    VectorFile(const std::string& driver, const std::string& name) : path_("/vsimem/" + name) {
-        register_drivers();
-        GDALDriver* const made_by = GetGDALDriverManager()->GetDriverByName(driver.c_str());
-        REQUIRE(made_by != nullptr);
-        dataset_.reset(made_by->Create(path_.c_str(), 0, 0, 0, GDT_Unknown, nullptr));
-        REQUIRE(dataset_ != nullptr);
-    }
-    VectorFile(const VectorFile&) = delete;
-    VectorFile& operator=(const VectorFile&) = delete;
-    ~VectorFile() {
-        dataset_.reset();
-        VSIRmdirRecursive(path_.c_str());
-        VSIUnlink(path_.c_str());
-    }
-
-    OGRLayer& add_layer(const std::string& name, OGRwkbGeometryType type, const char* crs = nullptr,
-                        const std::vector<std::pair<std::string, OGRFieldType>>& fields = {}) {
-        OGRSpatialReference system;
-        if (crs != nullptr) {
-            system.SetFromUserInput(crs);
-            system.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-        }
-        OGRLayer* const layer = dataset_->CreateLayer(name.c_str(), crs == nullptr ? nullptr : &system, type);
-        REQUIRE(layer != nullptr);
-        for (const auto& [field, kind] : fields) {
-            OGRFieldDefn definition(field.c_str(), kind);
-            REQUIRE(layer->CreateField(&definition) == OGRERR_NONE);
-        }
-        return *layer;
-    }
-    const std::string& close() {
-        dataset_.reset();
-        return path_;
-    }
-
-  private:
-    GdalMessages messages_;  // what drivers say about file names and extensions
-    std::string path_;
-    Dataset dataset_;
-};
-
-/// `values`: one a field, as text; nullptr leaves it empty. `wkt` nullptr: no geometry.
-void add_feature(OGRLayer& layer, const char* wkt, const std::vector<const char*>& values = {}) {
-    OGRFeature feature(layer.GetLayerDefn());
-    if (wkt != nullptr) {
-        OGRGeometry* geometry = nullptr;
-        REQUIRE(OGRGeometryFactory::createFromWkt(wkt, nullptr, &geometry) == OGRERR_NONE);
-        feature.SetGeometryDirectly(geometry);
-    }
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        if (values[i] != nullptr) {
-            feature.SetField(static_cast<int>(i), values[i]);
-        }
-    }
-    REQUIRE(layer.CreateFeature(&feature) == OGRERR_NONE);
-}
 
 void add_point(OGRLayer& layer, const Point3& p) {
     OGRFeature feature(layer.GetLayerDefn());

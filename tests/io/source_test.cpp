@@ -31,7 +31,7 @@ TEST_SUITE("io/source") {
     TEST_CASE("every key is understood") {
         const Source source = parse_source(
             "a.gpkg,layer=points,where=kind = 'ground',z=h,xfield=e,yfield=n,vertices=yes,band=2,stride=10,"
-            "crs=EPSG:3067,format=pnezd,as=samples,oo=A=1,oo=B=x,y");
+            "crs=EPSG:3067,format=pnezd,as=samples,across=smooth,oo=A=1,oo=B=x,y");
         CHECK(source.path == "a.gpkg");
         CHECK(source.layer == "points");
         CHECK(source.where == "kind = 'ground'");
@@ -44,6 +44,7 @@ TEST_SUITE("io/source") {
         CHECK(source.crs == "EPSG:3067");
         CHECK(source.format == Source::Format::Pnezd);
         CHECK(source.as == Source::Kind::Samples);
+        CHECK(source.across == "smooth");
         CHECK(source.open_options == std::vector<std::string>{"A=1", "B=x,y"});
     }
 

@@ -87,25 +87,27 @@ bool wants_vector(const Source& source) {
     return source.layer || source.sql || source.where || source.vertices || source.x_field;
 }
 
-[[noreturn]] void refuse_unopened(const Source& source, const std::string& path,
+/// What GDAL is asked for: GDAL_OF_RASTER, GDAL_OF_VECTOR or both.
+unsigned kinds_of(const Source& source) {
+    return wants_raster(source)   ? GDAL_OF_RASTER
+           : wants_vector(source) ? GDAL_OF_VECTOR
+                                  : GDAL_OF_RASTER | GDAL_OF_VECTOR;
+}
+
+[[noreturn]] void refuse_unopened(const Source& source, const std::string& path, unsigned kinds,
                                   const GdalMessages& messages) {
     const std::string file = "cannot open file " + quoted(source.path);
     if (!is_readable(path)) {
         throw IoError(file + ": no such file" + unknown_key_hint(source.path));
     }
     throw IoError(file +
-                  (wants_raster(source)   ? ": no raster that GDAL knows"
-                   : wants_vector(source) ? ": no vector layers that GDAL knows"
-                                          : ": neither a raster nor a vector layer nor rows of numbers") +
+                  (kinds == GDAL_OF_RASTER   ? ": no raster that GDAL knows"
+                   : kinds == GDAL_OF_VECTOR ? ": no vector layers that GDAL knows"
+                                             : ": neither a raster nor a vector layer nor rows of numbers") +
                   messages.suffix());
 }
 
-OpenedSource open_with_gdal(const Source& source, std::string path) {
-    const bool is_raster_asked = wants_raster(source);
-    const bool is_vector_asked = wants_vector(source);
-    const unsigned kinds = is_raster_asked   ? GDAL_OF_RASTER
-                           : is_vector_asked ? GDAL_OF_VECTOR
-                                             : GDAL_OF_RASTER | GDAL_OF_VECTOR;
+OpenedSource open_with_gdal(const Source& source, std::string path, unsigned kinds) {
     CPLStringList options;
     for (const std::string& option : source.open_options) {
         options.AddString(option.c_str());
@@ -116,7 +118,7 @@ OpenedSource open_with_gdal(const Source& source, std::string path) {
     opened.dataset.reset(GDALDataset::Open(opened.path.c_str(),
                                            kinds | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, nullptr,
                                            options.List(), nullptr));
-    const bool is_free = !is_raster_asked && !is_vector_asked && source.open_options.empty();
+    const bool is_free = kinds == (GDAL_OF_RASTER | GDAL_OF_VECTOR) && source.open_options.empty();
     const std::string driver = opened.dataset && opened.dataset->GetDriver() != nullptr
                                    ? opened.dataset->GetDriver()->GetDescription()
                                    : "";
@@ -128,14 +130,27 @@ OpenedSource open_with_gdal(const Source& source, std::string path) {
         }
     }
     if (!opened.dataset) {
-        refuse_unopened(source, opened.path, messages);
+        refuse_unopened(source, opened.path, kinds, messages);
     }
-    const bool is_raster = is_raster_asked || (!is_vector_asked && opened.dataset->GetLayerCount() == 0);
+    const bool is_raster =
+        kinds == GDAL_OF_RASTER || (kinds != GDAL_OF_VECTOR && opened.dataset->GetLayerCount() == 0);
     opened.kind = is_raster ? OpenedSource::Kind::Raster : OpenedSource::Kind::Vector;
     if (!source.open_options.empty() && !messages.last_warning().empty()) {
         opened.warning = "file " + quoted(source.path) + ": GDAL says: " + messages.last_warning();
     }
     return opened;
+}
+
+/// The first key given that says how to find samples, or empty.
+std::string key_for_samples(const Source& source) {
+    return source.band                             ? "band="
+           : source.stride                         ? "stride="
+           : source.vertices                       ? "vertices="
+           : source.x_field                        ? "xfield="
+           : source.y_field                        ? "yfield="
+           : source.format != Source::Format::Auto ? "format="
+           : source.as != Source::Kind::Auto       ? "as="
+                                                   : "";
 }
 
 }  // namespace
@@ -167,7 +182,7 @@ OpenedSource open_source(const Source& source) {
                             source.vertices || !source.open_options.empty();
     const bool is_stdin = opened.path == "/vsistdin/";
     if (source.format == Source::Format::Auto && (wants_gdal || !(is_stdin || has_text_name(source.path)))) {
-        return open_with_gdal(source, opened.path);
+        return open_with_gdal(source, opened.path, kinds_of(source));
     }
     if (source.path.starts_with("CSV:")) {
         // GDAL's way to name its driver; our own parser reads such files.
@@ -183,7 +198,16 @@ OpenedSource open_source(const Source& source) {
     constexpr std::size_t kEnough = 65536;
     const std::string head = read_head(opened.path, kEnough);
     const bool is_text = is_stdin ? looks_like_rows(whole_lines(head)) : !is_ascii_grid(head);
-    return is_text ? std::move(opened) : open_with_gdal(source, opened.path);
+    return is_text ? std::move(opened) : open_with_gdal(source, opened.path, kinds_of(source));
+}
+
+OpenedSource open_line_source(const Source& source) {
+    register_drivers();
+    const std::string key = key_for_samples(source);
+    if (!key.empty()) {
+        throw UsageError("source " + quoted(source.path) + ": " + key + " is for samples, not for lines");
+    }
+    return open_with_gdal(source, gdal_path(source.path), GDAL_OF_VECTOR);
 }
 
 }  // namespace tinwright::io

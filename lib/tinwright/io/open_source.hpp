@@ -33,6 +33,10 @@ std::string gdal_path(const std::string& path);
 /// it cannot be opened; UsageError for keys that exclude each other.
 OpenedSource open_source(const Source& source);
 
+/// Opens a source for reading lines: what GDAL says, text files too. Throws IoError when it is no vector
+/// file; UsageError for keys that are for samples.
+OpenedSource open_line_source(const Source& source);
+
 }  // namespace tinwright::io
 
 #endif

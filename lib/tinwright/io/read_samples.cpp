@@ -1,12 +1,7 @@
 #include "tinwright/io/read_samples.hpp"
 
 #include <algorithm>
-#include <array>
 #include <chrono>
-#include <cmath>
-#include <locale>
-#include <sstream>
-#include <string_view>
 #include <utility>
 
 #include <gdal_priv.h>
@@ -17,60 +12,12 @@
 #include "tinwright/io/read_raster.hpp"
 #include "tinwright/io/read_text.hpp"
 #include "tinwright/io/read_vector.hpp"
-#include "tinwright/io/transform_points.hpp"
+#include "tinwright/io/working_plane.hpp"
 
 namespace tinwright::io {
 namespace {
 
 std::string label(const Source& source) { return "file " + quoted(source.path); }
-
-std::string number(double value) {
-    std::ostringstream text;
-    text.imbue(std::locale::classic());
-    text.precision(15);
-    text << value;
-    return text.str();
-}
-
-/// Units as the files spell them, by one name each.
-std::string z_unit_name(const std::string& unit) {
-    constexpr std::array<std::pair<std::string_view, std::string_view>, 14> kNames = {
-        {{"m", "metre"},
-         {"meter", "metre"},
-         {"meters", "metre"},
-         {"metres", "metre"},
-         {"Metre", "metre"},
-         {"Meter", "metre"},
-         {"ft", "foot"},
-         {"feet", "foot"},
-         {"Feet", "foot"},
-         {"US Survey Foot", "US survey foot"},
-         {"us-ft", "US survey foot"},
-         {"ftUS", "US survey foot"},
-         {"US_survey_foot", "US survey foot"},
-         {"survey_foot", "US survey foot"}}};
-    for (const auto& [spelling, name] : kNames) {
-        if (unit == spelling) {
-            return std::string(name);
-        }
-    }
-    return unit;
-}
-
-/// "EPSG:32612", the WGS 84 / UTM zone at the middle of points given in degrees; empty when they are not.
-std::string utm_zone(std::span<const Point3> points) {
-    const auto [west, east] = std::minmax_element(points.begin(), points.end(),
-                                                  [](const Point3& a, const Point3& b) { return a.x < b.x; });
-    const auto [south, north] = std::minmax_element(
-        points.begin(), points.end(), [](const Point3& a, const Point3& b) { return a.y < b.y; });
-    const double longitude = std::remainder((west->x + east->x) / 2, 360.0);
-    const double latitude = (south->y + north->y) / 2;
-    if (!(std::abs(latitude) <= 84) || !(std::abs(longitude) <= 180)) {
-        return {};
-    }
-    const int zone = std::min(60, 1 + static_cast<int>(std::floor((longitude + 180) / 6)));
-    return "EPSG:" + std::to_string((latitude < 0 ? 32700 : 32600) + zone);
-}
 
 /// What a source of this kind consists of.
 std::string noun(SampleSlice::Kind kind) {
@@ -101,17 +48,7 @@ std::string describe_id(const SampleSlice& slice, std::int64_t id) {
 class SampleReader {
   public:
     SampleReader(std::span<const Source> sources, const ReadOptions& options)
-        : sources_(sources), options_(options) {
-        out_.crs = options.crs;
-        if (options.crs.is_geographic()) {
-            throw UsageError(
-                "--crs " + options.crs.name() +
-                " is geographic: degrees cannot be measured as a plane; give a projected system");
-        }
-        for (const Source& source : sources) {
-            given_.push_back(source.crs ? Crs::parse(*source.crs) : Crs());
-        }
-    }
+        : sources_(sources), options_(options), plane_(sources, options.crs, options.source_crs) {}
 
     Samples read() {
         const auto start = std::chrono::steady_clock::now();
@@ -128,6 +65,9 @@ class SampleReader {
         const Source& source = sources_[s];
         if (source.as == Source::Kind::Tin) {
             throw UsageError("source " + quoted(source.path) + ": as=tin does not go with other samples");
+        }
+        if (source.across) {
+            throw UsageError("source " + quoted(source.path) + ": across= is for lines, not for samples");
         }
         if (source.z && *source.z == "drape") {
             throw UsageError("source " + quoted(source.path) +
@@ -176,74 +116,21 @@ class SampleReader {
                          (raw.kind == SampleSlice::Kind::Raster ? ": no valid cells" : ": no samples"));
     }
 
-    /// Brings a slice's points into the working system, which the first known one is if none was given.
+    /// Brings a slice's points into the working system; those that cannot be are bad.
     void place(std::size_t s, RawSlice& raw, std::size_t first) {
-        const Crs crs = crs_of(s, raw);
-        std::string z_unit = raw.z_unit.empty() ? crs.z_unit() : z_unit_name(raw.z_unit);
-        if (!crs.is_known()) {
-            without_crs_.push_back(s);
-        } else if (!out_.crs.is_known()) {
-            refuse_geographic(s, crs, first);
-            out_.crs = crs;
-            crs_from_ = s;
-        } else if (!crs.is_same(out_.crs)) {
-            if (!options_.crs.is_known()) {
-                throw InputError(label(sources_[crs_from_]) + " is in " + out_.crs.name() + ", " +
-                                 label(sources_[s]) + " in " + crs.name() +
-                                 "; give the system to work in with --crs");
-            }
-            transform(s, raw, first, crs);
-            if (!crs.z_unit().empty() && !out_.crs.z_unit().empty()) {
-                z_unit = out_.crs.z_unit();
-            }
-        }
-        note_z_unit(s, z_unit);
-    }
-
-    Crs crs_of(std::size_t s, const RawSlice& raw) {
-        if (given_[s].is_known()) {
-            if (raw.crs.is_known() && !raw.crs.is_same(given_[s])) {
-                out_.warnings.push_back(label(sources_[s]) + ": says " + raw.crs.name() + "; read as " +
-                                        given_[s].name() + " because of crs=");
-            }
-            return given_[s];
-        }
-        if (raw.crs.is_known()) {
-            return raw.crs;
-        }
-        if (raw.is_lon_lat && !options_.source_crs.is_known()) {
-            throw InputError(
-                label(sources_[s]) +
-                ": coordinates are longitude and latitude in an unknown system; give theirs, for "
-                "example crs=EPSG:4326, and a projected one with --crs");
-        }
-        return options_.source_crs;
-    }
-
-    void refuse_geographic(std::size_t s, const Crs& crs, std::size_t first) const {
-        if (!crs.is_geographic()) {
-            return;
-        }
-        const std::string zone = utm_zone(std::span(out_.points).subspan(first));
-        throw InputError(label(sources_[s]) + ": coordinates are geographic, " + crs.name() +
-                         ", and degrees cannot be measured as a plane; give a projected system with --crs" +
-                         (zone.empty() ? "" : ", for example --crs " + zone));
-    }
-
-    void transform(std::size_t s, RawSlice& raw, std::size_t first, const Crs& from) {
         const std::span<Point3> points = std::span(out_.points).subspan(first);
         const Progress read_progress = progress_of(s);
         const Progress go_on = [&](double) { return !read_progress || read_progress(1.0); };
-        const std::vector<std::size_t> failed = transform_points(points, from, out_.crs, go_on);
+        const std::vector<std::size_t> failed =
+            plane_.place(s, {raw.crs, raw.is_lon_lat, raw.z_unit}, points, go_on);
+        add_warnings(plane_.take_warnings());
         if (failed.empty()) {
             return;
         }
         const std::vector<std::int64_t> ids = raw.ids.all();
         const SampleSlice slice = slice_of(s, raw, first);
         for (const std::size_t i : failed) {
-            raw.bad.add(describe_id(slice, ids[i]) + ": (" + number(points[i].x) + ", " +
-                        number(points[i].y) + ") cannot be transformed from " + from.name() + " to " +
-                        out_.crs.name());
+            raw.bad.add(describe_id(slice, ids[i]) + ": " + plane_.failure(points[i]));
         }
         std::size_t kept = first;
         std::size_t next = 0;
@@ -256,19 +143,6 @@ class SampleReader {
         }
         out_.points.resize(kept);
         raw.ids.erase(failed);
-    }
-
-    void note_z_unit(std::size_t s, const std::string& unit) {
-        if (unit.empty()) {
-            return;
-        }
-        if (out_.z_unit.empty()) {
-            out_.z_unit = unit;
-        } else if (out_.z_unit != unit && !are_z_units_mixed_) {
-            are_z_units_mixed_ = true;
-            out_.warnings.push_back(label(sources_[s]) + ": elevations are in " + unit +
-                                    ", those before in " + out_.z_unit + "; they are not converted");
-        }
     }
 
     [[nodiscard]] SampleSlice slice_of(std::size_t s, const RawSlice& raw, std::size_t first) const {
@@ -290,7 +164,7 @@ class SampleReader {
             slice.ids = raw.ids.all();
         }
         out_.slices.push_back(std::move(slice));
-        out_.warnings.insert(out_.warnings.end(), raw.warnings.begin(), raw.warnings.end());
+        add_warnings(raw.warnings);
         if (raw.bad.count() > 0) {
             out_.warnings.push_back(label(sources_[s]) + ": " + std::to_string(raw.bad.count()) +
                                     " unusable " + noun(raw.kind) + (raw.bad.count() == 1 ? "" : "s") +
@@ -299,28 +173,21 @@ class SampleReader {
     }
 
     void finish() {
-        if (out_.z_unit.empty()) {
-            out_.z_unit = out_.crs.z_unit();
+        out_.crs = plane_.crs();
+        out_.z_unit = plane_.z_unit();
+        if (const std::string warning = plane_.missing_warning(); !warning.empty()) {
+            out_.warnings.push_back(warning);
         }
-        if (without_crs_.empty() || !out_.crs.is_known()) {
-            return;
-        }
-        std::vector<std::string> files;
-        for (const std::size_t s : without_crs_) {
-            files.push_back(sources_[s].path);
-        }
-        out_.warnings.push_back((files.size() == 1 ? "file " : "files ") + quoted_list(files) +
-                                (files.size() == 1 ? ": has" : ": have") + " no CRS; taken to be in " +
-                                out_.crs.name());
+    }
+
+    void add_warnings(const std::vector<std::string>& warnings) {
+        out_.warnings.insert(out_.warnings.end(), warnings.begin(), warnings.end());
     }
 
     std::span<const Source> sources_;
     const ReadOptions& options_;
+    WorkingPlane plane_;
     Samples out_;
-    std::vector<Crs> given_;  // by crs=, one a source
-    std::size_t crs_from_ = 0;
-    std::vector<std::size_t> without_crs_;
-    bool are_z_units_mixed_ = false;
 };
 
 }  // namespace

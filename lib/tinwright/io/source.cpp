@@ -11,9 +11,9 @@
 namespace tinwright::io {
 namespace {
 
-constexpr std::array<std::string_view, 13> kKnownKeys = {"layer",  "where",    "sql",  "z",      "xfield",
-                                                         "yfield", "vertices", "band", "stride", "crs",
-                                                         "format", "as",       "oo"};
+constexpr std::array<std::string_view, 14> kKnownKeys = {"layer",  "where",    "sql",    "z",    "xfield",
+                                                         "yfield", "vertices", "across", "band", "stride",
+                                                         "crs",    "format",   "as",     "oo"};
 
 [[noreturn]] void refuse(std::string_view text, const std::string& why) {
     throw UsageError("source " + quoted(std::string(text)) + ": " + why);
@@ -106,14 +106,15 @@ Source::Kind parse_kind(std::string_view text, const Part& part) {
 }
 
 void store(Source& source, std::string_view text, Part&& part) {
-    const std::array<std::pair<std::string_view, std::optional<std::string>*>, 7> texts = {
+    const std::array<std::pair<std::string_view, std::optional<std::string>*>, 8> texts = {
         {{"layer", &source.layer},
          {"where", &source.where},
          {"sql", &source.sql},
          {"z", &source.z},
          {"xfield", &source.x_field},
          {"yfield", &source.y_field},
-         {"crs", &source.crs}}};
+         {"crs", &source.crs},
+         {"across", &source.across}}};
     for (const auto& [key, member] : texts) {
         if (part.key == key) {
             *member = std::move(part.value);

@@ -17,12 +17,14 @@ struct Source {
     std::optional<std::string> layer;
     std::optional<std::string> where;
     std::optional<std::string> sql;
-    /// `geometry`, a field's name, or a constant. In text also a column's number from 1, so that z=3 is the
-    /// third column of a file that has three; z=3.0 is the constant.
+    /// `geometry`, a field's name, a constant, or of lines `drape`. In text also a column's number from 1, so
+    /// that z=3 is the third column of a file that has three; z=3.0 is the constant.
     std::optional<std::string> z;
     std::optional<std::string> x_field;  ///< a name; in text also a column's number from 1
     std::optional<std::string> y_field;
     bool vertices = false;  ///< vertices of lines and polygons are samples
+    /// Lines: `sharp`, `smooth`, or the name of a field that holds these words.
+    std::optional<std::string> across;
     std::optional<int> band;
     std::optional<int> stride;
     std::optional<std::string> crs;  ///< of this source, whatever the file says

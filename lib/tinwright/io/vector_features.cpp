@@ -7,7 +7,7 @@
 #include <ogrsf_frmts.h>
 
 #include "tinwright/io/gdal_session.hpp"
-#include "tinwright/io/read_number.hpp"
+#include "tinwright/io/vector_layer.hpp"
 
 namespace tinwright::io {
 namespace {
@@ -114,32 +114,12 @@ void FeatureSamples::add(const OGRGeometry* geometry, std::optional<double> z, s
     }
 }
 
-std::string FeatureSamples::field_value(const OGRFeature& feature, int field, double& value) {
-    const OGRFieldDefn& definition = *feature.GetDefnRef()->GetFieldDefn(field);
-    const std::string name = "field " + quoted(definition.GetNameRef());
-    if (!feature.IsFieldSetAndNotNull(field)) {
-        return name + " is empty";
-    }
-    const OGRFieldType type = definition.GetType();
-    if (type == OFTReal || type == OFTInteger || type == OFTInteger64) {
-        value = feature.GetFieldAsDouble(field);
-    } else {
-        const std::string text = feature.GetFieldAsString(field);
-        const auto number = parse_number(text);
-        if (!number) {
-            return name + " is no number: " + quoted(text);
-        }
-        value = *number;
-    }
-    return std::isfinite(value) ? std::string() : name + " is not finite";
-}
-
 void FeatureSamples::add(const OGRFeature& feature) {
     const std::int64_t id = feature.GetFID();
     std::optional<double> z = plan_.z_constant;
     if (plan_.z_field >= 0) {
         double value = 0;
-        const std::string error = field_value(feature, plan_.z_field, value);
+        const std::string error = field_number(feature, plan_.z_field, value);
         if (!error.empty()) {
             add_bad(id, error);
             return;
@@ -151,9 +131,9 @@ void FeatureSamples::add(const OGRFeature& feature) {
         return;
     }
     Point3 sample;
-    std::string error = field_value(feature, plan_.x_field, sample.x);
+    std::string error = field_number(feature, plan_.x_field, sample.x);
     if (error.empty()) {
-        error = field_value(feature, plan_.y_field, sample.y);
+        error = field_number(feature, plan_.y_field, sample.y);
     }
     if (error.empty() && !z) {
         const OGRGeometry* const geometry = feature.GetGeometryRef();

@@ -50,7 +50,6 @@ class FeatureSamples {
     std::string collect_point(double x, double y, bool has_z, double own_z, std::optional<double> z);
     template <typename Curve>
     std::string collect_curve(const Curve& curve, std::optional<double> z);
-    static std::string field_value(const OGRFeature& feature, int field, double& value);
 
     const VectorPlan& plan_;
     std::vector<Point3>& points_;

@@ -1,0 +1,352 @@
+#include "tinwright/io/read_lines.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <iterator>
+#include <memory>
+#include <utility>
+
+#include <cpl_port.h>
+#include <gdal_priv.h>
+#include <ogrsf_frmts.h>
+
+#include "tinwright/geometry/decimal.hpp"
+#include "tinwright/geometry/error.hpp"
+#include "tinwright/io/gdal_session.hpp"
+#include "tinwright/io/line_features.hpp"
+#include "tinwright/io/open_source.hpp"
+#include "tinwright/io/vector_layer.hpp"
+#include "tinwright/io/working_plane.hpp"
+
+namespace tinwright::io {
+namespace {
+
+std::string label(const Source& source) { return "file " + quoted(source.path); }
+
+bool may_have_lines(OGRLayer& layer) {
+    const OGRwkbGeometryType type = wkbFlatten(layer.GetGeomType());
+    return type == wkbUnknown || type == wkbGeometryCollection || OGR_GT_IsSubClassOf(type, wkbCurve) != 0 ||
+           OGR_GT_IsSubClassOf(type, wkbSurface) != 0 || OGR_GT_IsSubClassOf(type, wkbMultiCurve) != 0 ||
+           OGR_GT_IsSubClassOf(type, wkbMultiSurface) != 0;
+}
+
+std::string name_of(LineRole role) {
+    return role == LineRole::Breakline ? "breaklines" : role == LineRole::Boundary ? "boundaries" : "holes";
+}
+
+/// Fills z and sharpness into the plan for a layer, as the source's keys say.
+void plan_attributes(LinePlan& plan, const VectorLayer& layer, const Source& source) {
+    const std::string numeric = layer.numeric_fields();
+    plan.advice = "; give z=FIELD, z=NUMBER, or z=drape to take it from the samples" +
+                  (numeric.empty() ? "" : " (numeric fields: " + numeric + ")");
+    plan.is_draped = source.z && *source.z == "drape";
+    plan.may_lack_z = plan.role != LineRole::Breakline && !source.z;
+    if (source.z && !plan.is_draped) {
+        const VectorLayer::Elevation z = layer.elevation(*source.z);
+        plan.z_field = z.field;
+        plan.z_constant = z.constant;
+    }
+    if (source.across && *source.across == "smooth") {
+        plan.is_sharp = false;
+    } else if (source.across && *source.across != "sharp") {
+        plan.across_field = layer.field("across", *source.across);
+    }
+}
+
+/// Refuses layers whose declared type says that no feature can be used, skipped bad ones or not.
+void check_geometry_type(const LinePlan& plan, OGRLayer& layer) {
+    const OGRwkbGeometryType declared = layer.GetGeomType();
+    const OGRwkbGeometryType type = wkbFlatten(declared);
+    if (type == wkbNone) {
+        throw InputError(plan.where +
+                         ": a table without geometries; for text with a column of WKT name it with "
+                         "oo=GEOM_POSSIBLE_NAMES=COLUMN");
+    }
+    if (type == wkbPoint || type == wkbMultiPoint) {
+        throw InputError(plan.where + ": has " + OGRGeometryTypeToName(type) +
+                         " features, no lines or polygons");
+    }
+    const bool has_z = OGR_GT_HasZ(declared) != 0 || plan.z_field >= 0 || plan.z_constant || plan.is_draped;
+    if (type != wkbUnknown && !has_z && !plan.may_lack_z && !plan.lists_missing_z) {
+        throw InputError(plan.where + ": the geometries have no z" + plan.advice);
+    }
+}
+
+/// One read_lines().
+class LineReader {
+  public:
+    LineReader(std::span<const LineSource> sources, const ReadLinesOptions& options)
+        : roles_(sources),
+          options_(options),
+          sources_(plain(sources)),
+          plane_(sources_, options.crs, options.source_crs) {
+        plane_.expect_z_unit(options.z_unit);
+    }
+
+    Lines read() {
+        const auto start = std::chrono::steady_clock::now();
+        for (std::size_t s = 0; s < sources_.size(); ++s) {
+            read_source(s);
+        }
+        out_.crs = plane_.crs();
+        out_.z_unit = plane_.z_unit();
+        if (const std::string warning = plane_.missing_warning(); !warning.empty()) {
+            out_.warnings.push_back(warning);
+        }
+        out_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        return std::move(out_);
+    }
+
+  private:
+    static std::vector<Source> plain(std::span<const LineSource> sources) {
+        std::vector<Source> list;
+        list.reserve(sources.size());
+        for (const LineSource& source : sources) {
+            list.push_back(source.source);
+        }
+        return list;
+    }
+
+    void read_source(std::size_t s) {
+        const OpenedSource opened = open_line_source(sources_[s]);
+        if (!opened.warning.empty()) {
+            out_.warnings.push_back(opened.warning);
+        }
+        const VectorLayer layer(
+            *opened.dataset, sources_[s], label(sources_[s]),
+            {may_have_lines, "no layer has lines or polygons", "several layers may have lines", ""});
+        LinePlan plan;
+        plan.role = roles_[s].role;
+        plan.where = layer.where();
+        plan.lists_missing_z = options_.list_problems;
+        plan_attributes(plan, layer, sources_[s]);
+        check_geometry_type(plan, layer.layer());
+
+        RawLines raw(options_.skip_bad);
+        raw.polygons = polygons_;
+        read_features(s, plan, layer, raw);
+        require_lines(plan, raw);
+        place(s, plan, Crs::from_gdal(layer.layer().GetSpatialRef()), raw);
+        close_rings(plan, raw);
+        require_lines(plan, raw);  // all may be outside the transformation's area, or open
+        keep(s, plan, layer, raw);
+    }
+
+    void report(std::size_t s, double fraction) const {
+        report_progress(options_.progress,
+                        (static_cast<double>(s) + fraction) / static_cast<double>(sources_.size()));
+    }
+
+    void read_features(std::size_t s, const LinePlan& plan, const VectorLayer& chosen, RawLines& raw) const {
+        const GdalMessages messages;
+        OGRLayer& layer = chosen.layer();
+        if (!sources_[s].where) {
+            ignore_other_fields(layer, {plan.z_field, plan.across_field});
+        }
+        const bool is_counted = layer.TestCapability(OLCFastFeatureCount) != 0;
+        const double total = is_counted ? static_cast<double>(layer.GetFeatureCount()) : 0.0;
+        FeatureLines lines(plan, raw);
+        constexpr std::size_t kFeaturesBetweenReports = 1024;
+        std::size_t done = 0;
+        layer.ResetReading();
+        while (const std::unique_ptr<OGRFeature> feature{layer.GetNextFeature()}) {
+            lines.add(*feature);
+            if (++done % kFeaturesBetweenReports == 0) {
+                const double count = static_cast<double>(done);
+                report(s, total > count ? count / total : count / (count + 1e5));
+            }
+        }
+        chosen.require_no_error(messages, done > 0);
+        report(s, 1);
+    }
+
+    static void require_lines(const LinePlan& plan, const RawLines& raw) {
+        if (!raw.lines.empty()) {
+            return;
+        }
+        throw InputError(plan.where + (raw.bad.count() > 0
+                                           ? ": nothing usable; " + std::to_string(raw.bad.count()) +
+                                                 " skipped, the first is " + raw.bad.first()
+                                           : ": no lines"));
+    }
+
+    /// Brings the lines into the working system; features that cannot be are bad.
+    void place(std::size_t s, const LinePlan& plan, const Crs& own, RawLines& raw) {
+        std::vector<Point3> points;
+        std::vector<std::size_t> line_of;
+        for (std::size_t i = 0; i < raw.lines.size(); ++i) {
+            const std::vector<Point3>& line = raw.lines[i].points;
+            points.insert(points.end(), line.begin(), line.end());
+            line_of.insert(line_of.end(), line.size(), i);
+        }
+        std::vector<bool> is_draped(points.size());
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            if (std::isnan(points[i].z)) {
+                is_draped[i] = true;
+                points[i].z = 0;  // a transformation of a NaN fails
+            }
+        }
+        const std::vector<std::size_t> failed = plane_.place(s, {own, false, {}}, points);
+        const std::vector<std::string> warnings = plane_.take_warnings();
+        out_.warnings.insert(out_.warnings.end(), warnings.begin(), warnings.end());
+        std::size_t next = 0;
+        for (Breakline& line : raw.lines) {
+            for (Point3& point : line.points) {
+                point = points[next];
+                point.z = is_draped[next] ? kDraped : point.z;
+                ++next;
+            }
+        }
+        std::vector<std::pair<std::size_t, std::string>> bad;
+        bad.reserve(failed.size());
+        for (const std::size_t i : failed) {
+            bad.emplace_back(line_of[i], plane_.failure(points[i]));
+        }
+        drop_features(plan, raw, bad);
+    }
+
+    /// Closes rings within the snapping distance; features with a wider gap are bad.
+    void close_rings(const LinePlan& plan, RawLines& raw) {
+        std::vector<std::pair<std::size_t, std::string>> bad;
+        for (std::size_t i = 0; i < raw.lines.size() && plan.role != LineRole::Breakline; ++i) {
+            std::vector<Point3>& points = raw.lines[i].points;
+            const Point3 first = points.front();
+            const Point3 last = points.back();
+            if (last.x == first.x && last.y == first.y) {
+                continue;
+            }
+            const double gap = std::hypot(last.x - first.x, last.y - first.y);
+            LineConflict conflict;
+            conflict.kind = LineConflict::Kind::OpenRing;
+            conflict.location = {last.x, last.y};
+            conflict.line_a = static_cast<std::uint32_t>(i);
+            conflict.z_a = last.z;
+            if (gap <= options_.snap && points.size() > 3) {
+                points.back() = first;
+                conflict.action = LineConflict::Action::Snapped;
+            } else if (!options_.list_problems) {
+                bad.emplace_back(i, "a ring is not closed: it begins at " +
+                                        location_text({first.x, first.y}) + " and ends at " +
+                                        location_text({last.x, last.y}) +
+                                        "; close it, or allow for the gap with --snap DISTANCE");
+                continue;
+            }
+            open_rings_.push_back(conflict);
+        }
+        const std::vector<std::size_t> kept = drop_features(plan, raw, bad);
+        number_anew(kept);
+    }
+
+    /// Leaves out the features of lines that cannot be used; returns the lines kept, ascending.
+    static std::vector<std::size_t> drop_features(
+        const LinePlan& plan, RawLines& raw, const std::vector<std::pair<std::size_t, std::string>>& bad) {
+        std::vector<std::uint32_t> dropped;  // ascending, as lines are in feature order
+        for (const auto& [line, why] : bad) {
+            if (dropped.empty() || dropped.back() != raw.ordinals[line]) {
+                raw.bad.add(plan.where + ", feature " + std::to_string(raw.features[line]) + ": " + why);
+                dropped.push_back(raw.ordinals[line]);
+            }
+        }
+        std::vector<std::size_t> kept;
+        for (std::size_t i = 0; i < raw.lines.size(); ++i) {
+            if (std::binary_search(dropped.begin(), dropped.end(), raw.ordinals[i])) {
+                continue;
+            }
+            const std::size_t to = kept.size();
+            if (to != i) {
+                raw.lines[to] = std::move(raw.lines[i]);
+                raw.features[to] = raw.features[i];
+                raw.ordinals[to] = raw.ordinals[i];
+                raw.is_missing_z[to] = raw.is_missing_z[i];
+            }
+            kept.push_back(i);
+        }
+        raw.resize(kept.size());
+        return kept;
+    }
+
+    /// Conflicts of the slice at hand count its lines as they were before some were left out.
+    void number_anew(const std::vector<std::size_t>& kept) {
+        std::erase_if(open_rings_, [&](LineConflict& conflict) {
+            const auto place = std::lower_bound(kept.begin(), kept.end(), conflict.line_a);
+            const bool is_gone = place == kept.end() || *place != conflict.line_a;
+            conflict.line_a = static_cast<std::uint32_t>(out_.lines.size()) +
+                              static_cast<std::uint32_t>(place - kept.begin());
+            return is_gone;
+        });
+    }
+
+    void note_missing_z(const RawLines& raw) {
+        for (std::size_t i = 0; i < raw.lines.size(); ++i) {
+            if (!raw.is_missing_z[i]) {
+                continue;
+            }
+            const std::vector<Point3>& points = raw.lines[i].points;
+            const auto place = std::find_if(points.begin(), points.end(),
+                                            [](const Point3& point) { return std::isnan(point.z); });
+            LineConflict conflict;
+            conflict.kind = LineConflict::Kind::MissingZ;
+            conflict.line_a = static_cast<std::uint32_t>(out_.lines.size() + i);
+            conflict.location = {place->x, place->y};
+            out_.conflicts.push_back(conflict);
+        }
+    }
+
+    void keep(std::size_t s, const LinePlan& plan, const VectorLayer& layer, RawLines& raw) {
+        note_missing_z(raw);
+        out_.conflicts.insert(out_.conflicts.end(), open_rings_.begin(), open_rings_.end());
+        open_rings_.clear();
+        LineSlice slice;
+        slice.role = plan.role;
+        slice.source = s;
+        slice.file = sources_[s].path;
+        slice.layer = layer.layer().GetName();
+        slice.first = out_.lines.size();
+        slice.count = raw.lines.size();
+        slice.skipped = raw.bad.count();
+        out_.slices.push_back(std::move(slice));
+        polygons_ = raw.polygons;
+        std::move(raw.lines.begin(), raw.lines.end(), std::back_inserter(out_.lines));
+        out_.features.insert(out_.features.end(), raw.features.begin(), raw.features.end());
+        if (raw.bad.count() > 0) {
+            out_.warnings.push_back(label(sources_[s]) + ": " + std::to_string(raw.bad.count()) +
+                                    " unusable feature" + (raw.bad.count() == 1 ? "" : "s") + " among the " +
+                                    name_of(plan.role) + " skipped, the first is " + raw.bad.first());
+        }
+    }
+
+    std::span<const LineSource> roles_;
+    const ReadLinesOptions& options_;
+    std::vector<Source> sources_;
+    WorkingPlane plane_;
+    Lines out_;
+    std::uint32_t polygons_ = 0;
+    std::vector<LineConflict> open_rings_;  // of the slice at hand
+};
+
+}  // namespace
+
+const LineSlice& Lines::slice_of(std::size_t line) const {
+    const auto after =
+        std::upper_bound(slices.begin(), slices.end(), line,
+                         [](std::size_t l, const LineSlice& slice) { return l < slice.first; });
+    return *std::prev(after);
+}
+
+std::string Lines::describe(std::size_t line) const {
+    if (line >= lines.size()) {
+        return "line " + std::to_string(line);
+    }
+    const LineSlice& slice = slice_of(line);
+    return "file " + quoted(slice.file) + ", layer " + quoted(slice.layer) + ", feature " +
+           std::to_string(features[line]);
+}
+
+Lines read_lines(std::span<const LineSource> sources, const ReadLinesOptions& options) {
+    register_drivers();
+    const GdalMessages messages;
+    return LineReader(sources, options).read();
+}
+
+}  // namespace tinwright::io

@@ -1,0 +1,75 @@
+#ifndef TINWRIGHT_IO_READ_LINES_HPP
+#define TINWRIGHT_IO_READ_LINES_HPP
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "tinwright/breaklines/breakline.hpp"
+#include "tinwright/breaklines/line_conflict.hpp"
+#include "tinwright/geometry/progress.hpp"
+#include "tinwright/io/crs.hpp"
+#include "tinwright/io/source.hpp"
+
+namespace tinwright::io {
+
+/// A source of lines and what they are there for.
+struct LineSource {
+    Source source;
+    LineRole role = LineRole::Breakline;
+};
+
+struct ReadLinesOptions {
+    bool skip_bad = false;  ///< count unusable features and go on, instead of failing at the first
+    Crs crs;                ///< the working system, that of the samples; unknown: the one the lines share
+    Crs source_crs;         ///< --source-crs: for sources that carry none; a source's crs= comes first
+    std::string z_unit;     ///< of the samples; empty when unknown
+    double snap = 0;        ///< rings whose ends are at most this far apart (CRS units, >= 0) are closed
+    /// Keep what could not be used, listed in `Lines::conflicts`, instead of failing: points without a finite
+    /// z (draped, `MissingZ`, one a line) and rings that are not closed (as they are, `OpenRing`). For
+    /// audits.
+    bool list_problems = false;
+    Progress progress;
+};
+
+/// The part of an array of lines that came from one layer.
+struct LineSlice {
+    LineRole role = LineRole::Breakline;
+    std::size_t source = 0;  ///< index of the source
+    std::string file;        ///< as the user wrote it
+    std::string layer;
+    std::size_t first = 0;  ///< lines [first, first + count)
+    std::size_t count = 0;
+    std::size_t skipped = 0;  ///< unusable features under skip_bad
+};
+
+struct Lines {
+    std::vector<Breakline> lines;        ///< in the working CRS; polygons numbered through all sources
+    std::vector<std::int64_t> features;  ///< feature id of each line
+    std::vector<LineSlice> slices;
+    /// What was done while reading: rings closed within `snap`, and under list_problems those above.
+    std::vector<LineConflict> conflicts;
+    Crs crs;                            ///< the working CRS, may be unknown
+    std::string z_unit;                 ///< empty when unknown
+    std::vector<std::string> warnings;  ///< one line each
+    double seconds = 0;
+
+    /// The slice of a line. O(log slices).
+    [[nodiscard]] const LineSlice& slice_of(std::size_t line) const;
+    /// Where a line came from, for messages: `file "a.gpkg", layer "p", feature 7`.
+    [[nodiscard]] std::string describe(std::size_t line) const;
+};
+
+/// Reads the lines of vector layers, in source and feature order: lines, rings of polygons, and collections
+/// of them; curves are made of straight parts. z is the geometry's, a field, a constant, or draped, as z=
+/// says; boundaries and holes without z are draped. Of roles Boundary and Hole lines must be closed, those of
+/// one feature being rings of one polygon. Systems are treated as `read_samples` does, but that lines go to
+/// the samples' one without being asked. Throws IoError (cannot be opened or read), InputError (unusable
+/// content, naming file, layer and feature), UsageError (keys that do not fit), Cancelled. O(n).
+Lines read_lines(std::span<const LineSource> sources, const ReadLinesOptions& options = {});
+
+}  // namespace tinwright::io
+
+#endif
