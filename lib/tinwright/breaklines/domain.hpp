@@ -2,6 +2,8 @@
 #define TINWRIGHT_BREAKLINES_DOMAIN_HPP
 
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <span>
 
 #include "tinwright/breaklines/breakline.hpp"
@@ -25,8 +27,11 @@ struct DomainReport {
 /// Marks the faces that boundaries and holes cut off: those inside no polygon of role Boundary, if there is
 /// any, and those inside one of role Hole. Decided by walking the mesh from outside the hull and counting
 /// the rings passed, so only the rings' traces must be right, not their directions.
-/// `lines`: those that `tin.traces` number. Returns how many faces were marked. O(slots + traces log n).
-std::size_t apply_polygons(Tin& tin, std::span<const Breakline> lines);
+/// `lines`: those that `tin.traces` number. `terrain_ring`: the number of one more line, a ring outside which
+/// is no terrain either; its traces go. Returns how many faces were marked. O(slots + traces log n), and
+/// the number of polygons around a place for each area between rings.
+std::size_t apply_polygons(Tin& tin, std::span<const Breakline> lines,
+                           std::optional<std::uint32_t> terrain_ring = {});
 
 /// Marks the faces outside the domain; every sample stays on or inside its border, which remains one
 /// closed curve per surface without pinches. Faces already outside stay outside.

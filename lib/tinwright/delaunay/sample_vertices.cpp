@@ -42,26 +42,6 @@ void check_merged(const Point3& a, const Point3& b, double noise, const Lattice&
     }
 }
 
-// `z`: the elevations at one location, ascending.
-double choose_elevation(DuplicatePolicy policy, std::span<const double> z) {
-    const std::size_t middle = z.size() / 2;
-    switch (policy) {
-        case DuplicatePolicy::Min:
-            return z.front();
-        case DuplicatePolicy::Max:
-            return z.back();
-        case DuplicatePolicy::Median:
-            return z.size() % 2 == 1 ? z[middle] : std::midpoint(z[middle - 1], z[middle]);
-        default: {  // the mean, counted from the lowest, so that equal elevations give themselves
-            double sum = 0;
-            for (const double value : z) {
-                sum += value - z.front();
-            }
-            return z.front() + sum / static_cast<double>(z.size());
-        }
-    }
-}
-
 class Merger {
   public:
     Merger(std::span<const Point3> samples, const DuplicateOptions& options, SampleVertices& out)
@@ -177,16 +157,41 @@ std::size_t order_samples(std::span<const Point3> samples, SampleVertices& out) 
 
 }  // namespace
 
+double choose_elevation(DuplicatePolicy policy, std::span<const double> z) {
+    const std::size_t middle = z.size() / 2;
+    switch (policy) {
+        case DuplicatePolicy::Min:
+            return z.front();
+        case DuplicatePolicy::Max:
+            return z.back();
+        case DuplicatePolicy::Median:
+            return z.size() % 2 == 1 ? z[middle] : std::midpoint(z[middle - 1], z[middle]);
+        default: {  // the mean, counted from the lowest, so that equal elevations give themselves
+            double sum = 0;
+            for (const double value : z) {
+                sum += value - z.front();
+            }
+            return z.front() + sum / static_cast<double>(z.size());
+        }
+    }
+}
+
 SampleVertices make_sample_vertices(std::span<const Point3> samples, const DuplicateOptions& options) {
+    return make_sample_vertices(samples, find_lattice(samples), options);
+}
+
+SampleVertices make_sample_vertices(std::span<const Point3> samples, const FoundLattice& found,
+                                    const DuplicateOptions& options) {
     if (samples.size() > kMostSamples) {
         throw InputError(std::to_string(samples.size()) + " samples are more than the limit of 2^29 = " +
                          std::to_string(kMostSamples) + "; thin or tile them");
     }
-    const FoundLattice found = find_lattice(samples);
-
     SampleVertices out;
     out.lattice = found.lattice;
     out.bounds = found.bounds;
+    if (samples.empty()) {
+        return out;
+    }
     std::size_t vertices = order_samples(samples, out);
 
     // Runs of equal keys shrink to one vertex each; nothing moves as long as there is none.

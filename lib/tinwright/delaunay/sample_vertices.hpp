@@ -48,6 +48,12 @@ struct SampleVertices {
 /// The result depends on the set of samples only, but for policies First and Last (and `sample`).
 /// O(n log n) worst case, a radix sort in practice; parallel inside the caller's task arena.
 SampleVertices make_sample_vertices(std::span<const Point3> samples, const DuplicateOptions& options = {});
+/// On a lattice found before, for these samples and perhaps more.
+SampleVertices make_sample_vertices(std::span<const Point3> samples, const FoundLattice& found,
+                                    const DuplicateOptions& options);
+
+/// The elevation that `policy` takes of those at one location, ascending; for First and Last the mean.
+double choose_elevation(DuplicatePolicy policy, std::span<const double> z);
 
 }  // namespace tinwright
 

@@ -13,6 +13,7 @@
 #include <tbb/task_arena.h>
 
 #include "tinwright/delaunay/delaunay.hpp"
+#include "tinwright/delaunay/sample_vertices.hpp"
 #include "tinwright/geometry/constructions.hpp"
 #include "tinwright/geometry/decimal.hpp"
 #include "tinwright/geometry/threads.hpp"
@@ -47,6 +48,15 @@ void check_options(const TriangulateOptions& options) {
     if (!(options.duplicates.tolerance >= 0)) {
         throw UsageError("the duplicate tolerance must be zero or more");
     }
+    if (!(options.noding.snap >= 0)) {
+        throw UsageError("the snapping distance must be zero or more");
+    }
+    if (!(options.noding.crossing_tolerance >= 0)) {
+        throw UsageError("the crossing tolerance must be zero or more");
+    }
+    if (!(options.line_tolerance >= 0)) {
+        throw UsageError("the line tolerance must be zero or more");
+    }
     if (options.domain.kind == DomainRule::Kind::Concave && !(options.domain.length > 0)) {
         throw UsageError("the length of a concave domain must be above zero");
     }
@@ -79,8 +89,11 @@ HullAndDetail examine(const Tin& tin) {
     const TriangleMesh& mesh = tin.mesh;
     const bool must_measure = !tin.lattice.is_exact();
     const std::span<const Key2> keys = tin.keys;
-    const auto examine_range = [&mesh, keys, must_measure](const tbb::blocked_range<std::uint32_t>& range,
-                                                           const HullAndDetail& before) {
+    // Points made where lines cross may be as close to others as they like.
+    const auto is_given = [&tin](VertexId v) { return tin.sample[v.value] < Tin::kCrossing; };
+    const auto examine_range = [&mesh, &is_given, keys, must_measure](
+                                   const tbb::blocked_range<std::uint32_t>& range,
+                                   const HullAndDetail& before) {
         std::size_t ghosts = before.hull_vertices;
         double closest = before.closest;
         FaceId at = before.at;
@@ -88,7 +101,7 @@ HullAndDetail examine(const Tin& tin) {
             const auto& [a, b, c] = mesh.face({f}).vertex;
             if (c == kGhostVertex) {
                 ++ghosts;
-            } else if (must_measure) {
+            } else if (must_measure && is_given(a) && is_given(b) && is_given(c)) {
                 const Key2 p = keys[a.value];
                 const Key2 q = keys[b.value];
                 const Key2 r = keys[c.value];
@@ -110,8 +123,8 @@ HullAndDetail examine(const Tin& tin) {
 // A lattice that had to move samples is good only if it moved each by a small part of the way to its
 // nearest neighbour.
 void check_detail(const Tin& tin, const HullAndDetail& seen) {
-    constexpr double kClosest = 16;
-    if (tin.lattice.is_exact() || seen.closest >= kClosest * kClosest) {
+    const double closest_allowed = std::ldexp(16.0, tin.lattice.refinement());
+    if (tin.lattice.is_exact() || seen.closest >= closest_allowed * closest_allowed) {
         return;
     }
     const VertexId at = tin.mesh.vertex(seen.at, 0);
@@ -122,44 +135,93 @@ void check_detail(const Tin& tin, const HullAndDetail& seen) {
         {tin.sample[at.value]});
 }
 
-Triangulated triangulate_here(std::span<const Point3> samples, const TriangulateOptions& options) {
+// Vertices and their Delaunay triangulation, without lines.
+void make_plain_tin(std::span<const Point3> samples, const TriangulateOptions& options,
+                    Triangulated& result) {
+    SampleVertices vertices = make_sample_vertices(samples, options.duplicates);
+    result.report.bounds = vertices.bounds;
+    result.report.duplicates = std::move(vertices.duplicates);
+    Tin& tin = result.tin;
+    tin.lattice = vertices.lattice;
+    tin.keys = std::move(vertices.keys);
+    tin.z = std::move(vertices.z);
+    tin.sample = std::move(vertices.sample);
+    report_progress(options.progress, 0.3);
+    if (tin.keys.size() >= 2) {
+        tin.mesh = make_delaunay(tin.keys);
+    }
+}
+
+// The same with lines in it. Returns the number of the terrain ring's traces, where there is one.
+std::optional<std::uint32_t> make_tin_with_lines(std::span<const Point3> samples,
+                                                 std::span<const Breakline> lines,
+                                                 const TriangulateOptions& options, Triangulated& result) {
+    ConstrainedTin made = make_constrained_tin(samples, lines,
+                                               {.duplicates = options.duplicates,
+                                                .noding = options.noding,
+                                                .line_tolerance = options.line_tolerance,
+                                                .wants_fine_lattice = options.conforming.has_value()});
+    result.tin = std::move(made.tin);
+    result.report.bounds = made.bounds;
+    result.report.duplicates = std::move(made.duplicates);
+    result.report.lines = std::move(made.lines);
+    return made.terrain_ring ? std::optional(static_cast<std::uint32_t>(lines.size())) : std::nullopt;
+}
+
+void check_locations(const Tin& tin) {
+    const std::size_t count = tin.keys.size();
+    if (count < 3) {
+        throw InputError("a surface needs three distinct sample locations or more, there " +
+                         std::string(count == 1 ? "is " : "are ") + std::to_string(count));
+    }
+    if (tin.mesh.count_terrain() == 0) {
+        throw InputError("all " + std::to_string(count) + " sample locations lie on one line, for example " +
+                         text_of(tin, {0}) + " and " + text_of(tin, {static_cast<std::uint32_t>(count - 1)}) +
+                         "; a surface needs one off the line");
+    }
+}
+
+void apply_domain_rules(Triangulated& result, std::span<const Breakline> lines,
+                        std::optional<std::uint32_t> terrain_ring, const TriangulateOptions& options) {
+    Tin& tin = result.tin;
+    result.report.domain.cut_faces = apply_polygons(tin, lines, terrain_ring);
+    if (tin.mesh.count_terrain() == 0) {
+        throw InputError("no face is left: boundary and holes leave no terrain between the samples");
+    }
+    result.report.domain.trimmed_faces = apply_domain(tin, options.domain);
+    constrain_border(tin);
+}
+
+Triangulated triangulate_here(std::span<const Point3> samples, std::span<const Breakline> lines,
+                              const TriangulateOptions& options) {
     Triangulated result;
     Tin& tin = result.tin;
     TriangulateReport& report = result.report;
     const auto start = Clock::now();
     report_progress(options.progress, 0);
-    {
-        SampleVertices vertices = make_sample_vertices(samples, options.duplicates);
-        report.samples = samples.size();
-        report.bounds = vertices.bounds;
-        report.duplicates = std::move(vertices.duplicates);
-        tin.lattice = vertices.lattice;
-        tin.keys = std::move(vertices.keys);
-        tin.z = std::move(vertices.z);
-        tin.sample = std::move(vertices.sample);
+    report.samples = samples.size();
+    std::optional<std::uint32_t> terrain_ring;
+    if (lines.empty()) {
+        make_plain_tin(samples, options, result);
+    } else {
+        terrain_ring = make_tin_with_lines(samples, lines, options, result);
     }
-    if (tin.keys.size() < 3) {
-        throw InputError("a surface needs three distinct sample locations or more, there " +
-                         std::string(tin.keys.size() == 1 ? "is " : "are ") +
-                         std::to_string(tin.keys.size()));
-    }
-    report_progress(options.progress, 0.3);
-    tin.mesh = make_delaunay(tin.keys);
+    check_locations(tin);
     const HullAndDetail seen = examine(tin);
     report.hull_vertices = seen.hull_vertices;
-    if (seen.hull_vertices == tin.mesh.slot_count()) {
-        throw InputError("all " + std::to_string(tin.keys.size()) +
-                         " sample locations lie on one line, for example " + text_of(tin, {0}) + " and " +
-                         text_of(tin, {static_cast<std::uint32_t>(tin.keys.size() - 1)}) +
-                         "; a surface needs one off the line");
-    }
     check_detail(tin, seen);
     report.triangulate_seconds = seconds_since(start);
     report_progress(options.progress, 0.9);
 
     const auto domain_start = Clock::now();
-    report.domain.trimmed_faces = apply_domain(tin, options.domain);
-    constrain_border(tin);
+    if (options.conforming && !lines.empty()) {
+        report.conforming = make_conforming(tin, *options.conforming);
+        report.is_conforming = report.conforming->is_conforming;
+        report.hull_vertices = tin.mesh.slot_count() - tin.mesh.count_terrain();
+    } else {
+        report.is_conforming = lines.empty() || count_open_edges(tin) == 0;
+    }
+    apply_domain_rules(result, lines, terrain_ring, options);
     report.constrain_seconds = seconds_since(domain_start);
     if (options.optimize) {
         report.optimize = optimize(tin, *options.optimize);
@@ -169,8 +231,8 @@ Triangulated triangulate_here(std::span<const Point3> samples, const Triangulate
         report.domain.void_faces = drop_long_faces(tin, *options.max_edge);
         constrain_border(tin);
     }
-    report.faces =
-        tin.mesh.slot_count() - report.hull_vertices - report.domain.trimmed_faces - report.domain.void_faces;
+    report.faces = tin.mesh.slot_count() - report.hull_vertices - report.domain.cut_faces -
+                   report.domain.trimmed_faces - report.domain.void_faces;
     if (report.faces == 0) {
         throw InputError(
             "no face is left: all have an edge longer than --max-edge allows; give a longer one");
@@ -182,10 +244,15 @@ Triangulated triangulate_here(std::span<const Point3> samples, const Triangulate
 
 }  // namespace
 
-Triangulated triangulate(std::span<const Point3> samples, const TriangulateOptions& options) {
+Triangulated triangulate(std::span<const Point3> samples, std::span<const Breakline> lines,
+                         const TriangulateOptions& options) {
     check_options(options);
     tbb::task_arena arena(count_threads(options.threads));
-    return arena.execute([&] { return triangulate_here(samples, options); });
+    return arena.execute([&] { return triangulate_here(samples, lines, options); });
+}
+
+Triangulated triangulate(std::span<const Point3> samples, const TriangulateOptions& options) {
+    return triangulate(samples, {}, options);
 }
 
 }  // namespace tinwright

@@ -4,13 +4,12 @@
 #include <cstddef>
 #include <optional>
 #include <span>
-#include <vector>
 
 #include "tinwright/breaklines/breakline.hpp"
 #include "tinwright/breaklines/domain.hpp"
-#include "tinwright/breaklines/line_conflict.hpp"
 #include "tinwright/breaklines/noding.hpp"
 #include "tinwright/delaunay/conforming_delaunay.hpp"
+#include "tinwright/delaunay/constrained_tin.hpp"
 #include "tinwright/delaunay/sample_vertices.hpp"
 #include "tinwright/geometry/progress.hpp"
 #include "tinwright/mesh/tin.hpp"
@@ -34,25 +33,16 @@ struct TriangulateOptions {
     Progress progress;
 };
 
-/// What became of the lines.
-struct LinesReport {
-    std::size_t lines = 0;
-    std::size_t line_points = 0;        ///< points of the lines, as they came
-    std::size_t crossing_vertices = 0;  ///< vertices made where lines cross
-    std::size_t draped_vertices = 0;    ///< vertices of lines that got z from the samples' TIN
-    std::vector<LineConflict> conflicts;
-    /// Whether all edges of lines are Delaunay edges of all vertices (then no optimum was asked for).
-    bool is_conforming = true;
-    std::optional<ConformingReport> conforming;  ///< only when asked for
-};
-
 struct TriangulateReport {
     std::size_t samples = 0;
     Box bounds;  ///< of the samples and lines, CRS units
     DuplicateReport duplicates;
     LinesReport lines;
-    std::size_t faces = 0;          ///< terrain faces
-    std::size_t hull_vertices = 0;  ///< vertices on the convex hull, collinear ones included
+    /// Whether every edge of every line has an empty disk; true without lines.
+    bool is_conforming = true;
+    std::optional<ConformingReport> conforming;  ///< only when asked for
+    std::size_t faces = 0;                       ///< terrain faces
+    std::size_t hull_vertices = 0;               ///< vertices on the convex hull, collinear ones included
     DomainReport domain;
     std::optional<OptimizeReport> optimize;
     double triangulate_seconds = 0;  ///< lattice, sort and Delaunay

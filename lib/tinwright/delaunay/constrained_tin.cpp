@@ -1,0 +1,406 @@
+#include "tinwright/delaunay/constrained_tin.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <tuple>
+#include <utility>
+
+#include "tinwright/delaunay/constrained_delaunay.hpp"
+#include "tinwright/delaunay/delaunay.hpp"
+#include "tinwright/delaunay/drape.hpp"
+#include "tinwright/delaunay/terrain_ring.hpp"
+#include "tinwright/geometry/constructions.hpp"
+#include "tinwright/geometry/curve.hpp"
+#include "tinwright/geometry/decimal.hpp"
+#include "tinwright/geometry/error.hpp"
+#include "tinwright/geometry/predicates.hpp"
+#include "tinwright/mesh/box_tree.hpp"
+
+namespace tinwright {
+
+namespace {
+
+std::vector<Point3> check_lines(std::span<const Breakline> lines) {
+    std::vector<Point3> points;
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        const std::vector<Point3>& of_line = lines[i].points;
+        if (of_line.empty()) {
+            throw BreaklineError("a line has no points; remove it", {i});
+        }
+        const Point2 first{of_line.front().x, of_line.front().y};
+        const Point2 last{of_line.back().x, of_line.back().y};
+        if (lines[i].role != LineRole::Breakline && !(first.x == last.x && first.y == last.y)) {
+            throw BreaklineError("the ring of a boundary or hole is not closed: it begins at " +
+                                     location_text(first) + " and ends at " + location_text(last) +
+                                     "; close it, or give --snap with a distance above the gap",
+                                 {i});
+        }
+        for (const Point3& p : of_line) {
+            if (std::isinf(p.z)) {
+                throw BreaklineError("the elevation of a line at " + location_text({p.x, p.y}) +
+                                         " is infinite; remove the point or give its z",
+                                     {i});
+            }
+        }
+        points.insert(points.end(), of_line.begin(), of_line.end());
+    }
+    return points;
+}
+
+// Puts the job's parts together, one after the other.
+class Maker {
+  public:
+    Maker(std::span<const Point3> samples, std::span<const Breakline> lines,
+          const ConstrainedTinOptions& options)
+        : samples_(samples), lines_(lines), options_(options), line_points_(check_lines(lines)) {}
+
+    ConstrainedTin make() {
+        const FoundLattice found = find_lattice(samples_, line_points_);
+        result_.bounds = found.bounds;
+        result_.lines.lines = lines_.size();
+        result_.lines.line_points = line_points_.size();
+        sample_vertices_ = make_sample_vertices(samples_, found, options_.duplicates);
+        result_.duplicates = sample_vertices_.duplicates;
+        prepare_drape();
+        node();
+        merge();
+        tin().mesh = make_delaunay(tin().keys);
+        if (tin().mesh.count_terrain() > 0) {
+            insert_pieces();
+        }
+        resolve_elevations();
+        lay_draped();
+        if (options_.line_tolerance > 0) {
+            report_near_samples();
+        }
+        return std::move(result_);
+    }
+
+  private:
+    [[nodiscard]] Tin& tin() { return result_.tin; }
+    [[nodiscard]] bool is_ring(std::uint32_t number) const { return number >= lines_.size(); }
+
+    void prepare_drape() {
+        if (std::none_of(line_points_.begin(), line_points_.end(),
+                         [](const Point3& p) { return std::isnan(p.z); })) {
+            return;
+        }
+        if (sample_vertices_.keys.size() < 3) {
+            throw InputError(
+                "lines without z cannot be draped: there are not three samples to drape them on; give the "
+                "lines' z with z=FIELD or z=NUMBER");
+        }
+        drape_.emplace(sample_vertices_.keys, sample_vertices_.z);
+        result_.terrain_ring = find_terrain_ring(lines_, *drape_, sample_vertices_.lattice,
+                                                 sample_vertices_.keys, sample_vertices_.z);
+        if (result_.terrain_ring) {
+            lines_with_ring_.assign(lines_.begin(), lines_.end());
+            lines_with_ring_.push_back(*result_.terrain_ring);
+        }
+    }
+
+    // Cuts the lines on the refined lattice, and goes back to the plain one if nothing needs the refined.
+    void node() {
+        const Lattice& plain = sample_vertices_.lattice;
+        const Key2 corner = plain.key({result_.bounds.x_max, result_.bounds.y_max});
+        const int bits = plain.refinement_room(std::max(corner.x, corner.y));
+        const Lattice fine = plain.refined(bits);
+        noded_ = node_lines(result_.terrain_ring ? std::span<const Breakline>(lines_with_ring_) : lines_,
+                            fine, options_.noding);
+        const double scale = std::ldexp(1.0, bits);
+        const auto is_plain = [scale](Key2 key) {
+            return std::floor(key.x / scale) * scale == key.x && std::floor(key.y / scale) * scale == key.y;
+        };
+        if (options_.wants_fine_lattice || !std::all_of(noded_.keys.begin(), noded_.keys.end(), is_plain)) {
+            tin().lattice = fine;
+            for (Key2& key : sample_vertices_.keys) {
+                key = {key.x * scale, key.y * scale};
+            }
+        } else {
+            tin().lattice = plain;
+            for (Key2& key : noded_.keys) {
+                key = {key.x / scale, key.y / scale};
+            }
+        }
+        first_line_.assign(noded_.keys.size(), LineConflict::kNone);
+        for (const NodedPiece& piece : noded_.pieces) {
+            for (const std::uint32_t end : {piece.a, piece.b}) {
+                first_line_[end] = std::min(first_line_[end], piece.line);
+            }
+        }
+        for (LineConflict& conflict : noded_.conflicts) {
+            const bool is_of_ring = (conflict.line_a != LineConflict::kNone && is_ring(conflict.line_a)) ||
+                                    (conflict.line_b != LineConflict::kNone && is_ring(conflict.line_b));
+            if (!is_of_ring) {
+                result_.lines.conflicts.push_back(conflict);
+            }
+        }
+    }
+
+    // Both sets of vertices are in the curve's order; where they meet, a sample and lines share a vertex.
+    void merge() {
+        const auto& keys = sample_vertices_.keys;
+        const auto& noded = noded_.keys;
+        vertex_of_.resize(noded.size());
+        tin().keys.reserve(keys.size() + noded.size());
+        std::size_t i = 0;
+        std::size_t k = 0;
+        while (i < keys.size() || k < noded.size()) {
+            const VertexId v{static_cast<std::uint32_t>(tin().keys.size())};
+            const bool has_sample =
+                i < keys.size() && (k == noded.size() || !precedes_on_curve(noded[k], keys[i]));
+            const bool has_line = k < noded.size() && (!has_sample || noded[k] == keys[i]);
+            if (has_sample) {
+                tin().keys.push_back(keys[i]);
+                tin().z.push_back(sample_vertices_.z[i]);
+                tin().sample.push_back(sample_vertices_.sample[i]);
+            } else {
+                tin().keys.push_back(noded[k]);
+                tin().z.push_back(noded_.z[k]);
+                const bool is_crossing = noded_.origin[k] == NodedLines::kCrossing;
+                tin().sample.push_back(is_crossing
+                                           ? Tin::kCrossing
+                                           : static_cast<std::uint32_t>(samples_.size()) + noded_.origin[k]);
+                result_.lines.crossing_vertices += is_crossing ? 1U : 0U;
+                if (std::isnan(noded_.z[k])) {
+                    draped_.push_back(v);
+                }
+            }
+            if (has_line) {
+                vertex_of_[k] = v;
+                if (has_sample && !std::isnan(noded_.z[k])) {
+                    meetings_.push_back({v, noded_.z[k], static_cast<std::uint32_t>(k), true});
+                }
+            }
+            i += has_sample ? 1U : 0U;
+            k += has_line ? 1U : 0U;
+        }
+    }
+
+    void insert_pieces() {
+        const std::vector<NodedPiece>& pieces = noded_.pieces;
+        std::vector<Segment> segments;
+        std::vector<std::size_t> first_piece;  // of each segment: several lines may run along it
+        for (std::size_t p = 0; p < pieces.size(); ++p) {
+            if (p == 0 || pieces[p].a != pieces[p - 1].a || pieces[p].b != pieces[p - 1].b) {
+                segments.push_back({vertex_of_[pieces[p].a], vertex_of_[pieces[p].b]});
+                first_piece.push_back(p);
+            }
+        }
+        first_piece.push_back(pieces.size());
+        const std::vector<SegmentEdge> edges = insert_segments(tin().mesh, tin().keys, segments);
+
+        std::vector<LineTrace>& traces = tin().traces;
+        for (const SegmentEdge& edge : edges) {
+            for (std::size_t p = first_piece[edge.segment]; p < first_piece[edge.segment + 1]; ++p) {
+                traces.push_back({edge.a, edge.b, pieces[p].line, pieces[p].runs});
+            }
+            meet_samples(edge, segments[edge.segment], pieces[first_piece[edge.segment]]);
+        }
+        std::sort(traces.begin(), traces.end());
+        // Collinear pieces that overlap share edges.
+        std::size_t kept = 0;
+        for (const LineTrace& trace : traces) {
+            if (kept > 0 && traces[kept - 1].a == trace.a && traces[kept - 1].b == trace.b &&
+                traces[kept - 1].line == trace.line) {
+                traces[kept - 1].runs += trace.runs;
+            } else {
+                traces[kept++] = trace;
+            }
+        }
+        traces.resize(kept);
+    }
+
+    // Samples that a segment passes through, once each: as the later end of an edge.
+    void meet_samples(const SegmentEdge& edge, const Segment& segment, const NodedPiece& piece) {
+        const double z_a = noded_.z[piece.a];
+        const double z_b = noded_.z[piece.b];
+        if (std::isnan(z_a) || std::isnan(z_b)) {
+            return;
+        }
+        const Key2 from = tin().key(segment.a);
+        const Key2 to = tin().key(segment.b);
+        const double length = squared_distance(from, to);
+        const auto way = [&](VertexId v) { return inner_product(tin().key(v), from, to) / length; };
+        const VertexId v = way(edge.a) < way(edge.b) ? edge.b : edge.a;
+        if (v != segment.a && v != segment.b) {
+            meetings_.push_back({v, z_a + way(v) * (z_b - z_a), piece.line, false});
+        }
+    }
+
+    // A sample and a line at one vertex.
+    struct Meeting {
+        VertexId vertex;
+        double z;  // of the line
+        std::uint32_t number;
+        bool is_noded;  // `number` is a noded vertex, else a line
+        auto operator<=>(const Meeting&) const = default;
+    };
+
+    [[nodiscard]] std::uint32_t line_of(const Meeting& meeting) const {
+        return meeting.is_noded ? first_line_[meeting.number] : meeting.number;
+    }
+
+    void resolve_elevations() {
+        std::sort(meetings_.begin(), meetings_.end());
+        std::size_t clashes = 0;
+        std::optional<LineConflict> first_clash;
+        for (auto first = meetings_.begin(); first != meetings_.end();) {
+            const auto last = std::find_if(first, meetings_.end(),
+                                           [&](const Meeting& m) { return m.vertex != first->vertex; });
+            if (const std::optional<LineConflict> clash = resolve({first, last})) {
+                ++clashes;
+                first_clash = first_clash ? first_clash : clash;
+                result_.lines.conflicts.push_back(*clash);
+            }
+            first = last;
+        }
+        if (clashes > 0 && options_.duplicates.policy == DuplicatePolicy::Error) {
+            const bool is_one = clashes == 1;
+            std::vector<std::size_t> lines;
+            if (!is_ring(first_clash->line_a)) {
+                lines.push_back(first_clash->line_a);
+            }
+            throw BreaklineError(
+                std::to_string(clashes) +
+                    (is_one ? " sample lies on a line that has another elevation there, at "
+                            : " samples lie on lines that have another elevation there, the first at ") +
+                    location_text(first_clash->location) + ": z " + decimal_text(first_clash->z_b) +
+                    " of the sample, " + decimal_text(first_clash->z_a) +
+                    " of the line; say which to take with --duplicates first|last|min|max|mean|median, or "
+                    "allow for the difference with --duplicate-tolerance",
+                lines, {first_clash->sample});
+        }
+    }
+
+    // One elevation for a sample's vertex and the lines through it; tells when they clash.
+    std::optional<LineConflict> resolve(std::span<const Meeting> meetings) {
+        const VertexId v = meetings.front().vertex;
+        const double of_sample = tin().z[v.value];
+        std::vector<double> sorted = {of_sample};
+        for (const Meeting& meeting : meetings) {
+            sorted.push_back(meeting.z);
+        }
+        std::sort(sorted.begin(), sorted.end());
+        const bool clashes = sorted.back() - sorted.front() > options_.duplicates.tolerance;
+        (clashes ? result_.duplicates.conflicting : result_.duplicates.equal) += 1;
+        if (options_.duplicates.policy == DuplicatePolicy::Last) {
+            tin().z[v.value] = std::max_element(meetings.begin(), meetings.end(),
+                                                [this](const Meeting& a, const Meeting& b) {
+                                                    return line_of(a) < line_of(b);
+                                                })
+                                   ->z;
+        } else if (options_.duplicates.policy != DuplicatePolicy::First) {
+            tin().z[v.value] = choose_elevation(options_.duplicates.policy, sorted);
+        }
+        if (!clashes) {
+            return std::nullopt;
+        }
+        LineConflict conflict;
+        conflict.kind = LineConflict::Kind::SampleOnLine;
+        conflict.action = LineConflict::Action::Chosen;
+        conflict.sample = tin().sample[v.value];
+        conflict.location = tin().lattice.position(tin().key(v));
+        conflict.z_b = of_sample;
+        const auto other = std::find_if(meetings.begin(), meetings.end(),
+                                        [&](const Meeting& m) { return m.z != of_sample; });
+        const Meeting& meeting = other == meetings.end() ? meetings.front() : *other;
+        conflict.z_a = meeting.z;
+        conflict.line_a = line_of(meeting);
+        return conflict;
+    }
+
+    void lay_draped() {
+        result_.lines.draped_vertices = draped_.size();
+        std::vector<VertexId> outside;
+        for (const VertexId v : draped_) {
+            const Drape::Elevation found = drape_->at(tin().key(v));
+            tin().z[v.value] = found.z;
+            if (found.is_outside) {
+                outside.push_back(v);
+            }
+        }
+        for (std::uint32_t k = 0, i = 0; k < vertex_of_.size() && i < outside.size(); ++k) {
+            if (vertex_of_[k] != outside[i]) {
+                continue;
+            }
+            LineConflict conflict;
+            conflict.kind = LineConflict::Kind::OutsideSamples;
+            conflict.action = LineConflict::Action::Clamped;
+            conflict.line_a = first_line_[k];
+            conflict.location = tin().lattice.position(tin().key(outside[i]));
+            conflict.z_a = tin().z[outside[i].value];
+            result_.lines.conflicts.push_back(conflict);
+            ++i;
+        }
+    }
+
+    void report_near_samples() {
+        const double reach = options_.line_tolerance / tin().lattice.quantum();
+        const std::vector<NodedPiece>& pieces = noded_.pieces;
+        std::vector<KeyBox> boxes;
+        for (const NodedPiece& piece : pieces) {
+            KeyBox box = KeyBox::of(std::vector{noded_.keys[piece.a], noded_.keys[piece.b]});
+            box.add({{box.low.x - reach, box.low.y - reach}, {box.high.x + reach, box.high.y + reach}});
+            boxes.push_back(box);
+        }
+        const BoxTree tree(boxes);
+        for (std::size_t i = 0; i < sample_vertices_.keys.size(); ++i) {
+            const Key2 key = sample_vertices_.keys[i];
+            double nearest = reach * reach;
+            std::optional<std::uint32_t> near;
+            bool is_on_line = false;
+            tree.visit_meeting(
+                {key, key}, [](const KeyBox&) { return false; },
+                [&](std::uint32_t item) {
+                    const NodedPiece& piece = pieces[item];
+                    const Key2 a = noded_.keys[piece.a];
+                    const Key2 b = noded_.keys[piece.b];
+                    const double share =
+                        std::clamp(inner_product(key, a, b) / squared_distance(a, b), 0.0, 1.0);
+                    const double x = key.x - (a.x + share * (b.x - a.x));
+                    const double y = key.y - (a.y + share * (b.y - a.y));
+                    is_on_line = key == a || key == b || (orient2d(a, b, key) == 0 && share > 0 && share < 1);
+                    const double squared = x * x + y * y;
+                    if (squared < nearest || (squared == nearest && (!near || piece.line < *near))) {
+                        nearest = squared;
+                        near = piece.line;
+                    }
+                    return !is_on_line;
+                });
+            if (!is_on_line && near && !is_ring(*near)) {
+                LineConflict conflict;
+                conflict.kind = LineConflict::Kind::SampleNearLine;
+                conflict.line_a = *near;
+                conflict.sample = sample_vertices_.sample[i];
+                conflict.location = tin().lattice.position(key);
+                conflict.z_b = sample_vertices_.z[i];
+                result_.lines.conflicts.push_back(conflict);
+            }
+        }
+    }
+
+    std::span<const Point3> samples_;
+    std::span<const Breakline> lines_;
+    const ConstrainedTinOptions& options_;
+    std::vector<Point3> line_points_;
+    std::vector<Breakline> lines_with_ring_;
+    SampleVertices sample_vertices_;
+    std::optional<Drape> drape_;
+    NodedLines noded_;
+    std::vector<VertexId> vertex_of_;        // of the noded vertices
+    std::vector<std::uint32_t> first_line_;  // through each of the noded vertices
+    std::vector<VertexId> draped_;  // vertices whose elevation is yet to be taken from the samples' TIN
+    std::vector<Meeting> meetings_;
+    ConstrainedTin result_;
+};
+
+}  // namespace
+
+ConstrainedTin make_constrained_tin(std::span<const Point3> samples, std::span<const Breakline> lines,
+                                    const ConstrainedTinOptions& options) {
+    return Maker(samples, lines, options).make();
+}
+
+}  // namespace tinwright
