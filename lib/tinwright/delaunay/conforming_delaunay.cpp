@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <deque>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -42,22 +43,34 @@ class Splitter {
     }
 
     void run() {
-        for (const LineTrace& trace : tin_.traces) {
-            enqueue_open(trace.a, trace.b);
-        }
-        enqueue_steiner_edges();
+        enqueue_all();
         while (!queue_.empty() && steiner_count() < max_steiner_) {
-            const auto [a, b] = queue_.front();
+            const Open open = queue_.front();
             queue_.pop_front();
-            const std::optional<HalfEdgeId> h = inserter_.find_half_edge(a, b);
-            if (h && is_open(tin_, *h)) {
-                split(*h);
+            const std::optional<HalfEdgeId> h = find(open);
+            if (h && is_open(tin_, *h) && !split(*h)) {
+                given_up_.push_back(open);
             }
             if ((++steps_ & 0xFFFU) == 0) {
                 report_progress(progress_, 1 - static_cast<double>(queue_.size()) /
                                                    static_cast<double>(queue_.size() + steiner_count()));
             }
         }
+    }
+
+    // Edges that are still open.
+    [[nodiscard]] std::size_t count_open() const {
+        std::vector<std::pair<VertexId, VertexId>> open;
+        const auto add = [&](const Open& edge) {
+            const std::optional<HalfEdgeId> h = find(edge);
+            if (h && is_open(tin_, *h) && inserter_.line_edge_of(edge.a, edge.b) != SteinerInserter::kFree) {
+                open.emplace_back(std::min(edge.a, edge.b), std::max(edge.a, edge.b));
+            }
+        };
+        std::for_each(queue_.begin(), queue_.end(), add);
+        std::for_each(given_up_.begin(), given_up_.end(), add);
+        std::sort(open.begin(), open.end());
+        return static_cast<std::size_t>(std::unique(open.begin(), open.end()) - open.begin());
     }
 
   private:
@@ -70,23 +83,38 @@ class Splitter {
         return is_old(v) ? 0 : generation_[v.value - inserter_.old_vertex_count()];
     }
 
-    void enqueue_open(VertexId a, VertexId b) {
-        const std::optional<HalfEdgeId> h = inserter_.find_half_edge(a, b);
-        if (h && tin_.mesh.is_constrained(*h) && is_open(tin_, *h)) {
-            queue_.emplace_back(a, b);
+    // An edge that was open when it was queued, and where it was then.
+    struct Open {
+        VertexId a;
+        VertexId b;
+        HalfEdgeId h;
+    };
+
+    [[nodiscard]] std::optional<HalfEdgeId> find(const Open& open) const {
+        const bool is_there = tin_.mesh.origin(open.h) == open.a && tin_.mesh.destination(open.h) == open.b;
+        return is_there ? open.h : inserter_.find_half_edge(open.a, open.b);
+    }
+
+    void enqueue(HalfEdgeId h) {
+        const TriangleMesh& mesh = tin_.mesh;
+        if (mesh.is_constrained(h) && is_open(tin_, h)) {
+            queue_.push_back({mesh.origin(h), mesh.destination(h), h});
         }
     }
 
-    // Edges between Steiner points that were there before.
-    void enqueue_steiner_edges() {
+    // In the order of the vertices, whatever the order of faces.
+    void enqueue_all() {
+        for (const auto& [a, b] : inserter_.line_edges()) {
+            if (const std::optional<HalfEdgeId> h = inserter_.find_half_edge(a, b)) {
+                enqueue(*h);
+            }
+        }
         for (auto v = static_cast<std::uint32_t>(inserter_.old_vertex_count()); v < tin_.vertex_count();
              ++v) {
             const HalfEdgeId first = inserter_.some_half_edge({v});
             HalfEdgeId h = first;
             do {
-                if (tin_.mesh.is_constrained(h)) {
-                    enqueue_open({v}, tin_.mesh.destination(h));
-                }
+                enqueue(h);
                 h = next_around(tin_.mesh, h);
             } while (h != first);
         }
@@ -114,13 +142,13 @@ class Splitter {
     // one to the next then leads around the vertex, ever closer to it.
     [[nodiscard]] bool is_closed_fan(VertexId v) const {
         constexpr double kCosine = -0.05;
+        if (fans_[v.value + 1] - fans_[v.value] < 4) {
+            return false;
+        }
         std::vector<double> angles;
         for (std::uint32_t i = fans_[v.value]; i < fans_[v.value + 1]; ++i) {
             const Key2 end = key(fan_edges_[i]);
             angles.push_back(std::atan2(end.y - key(v).y, end.x - key(v).x));
-        }
-        if (angles.size() < 4) {
-            return false;
         }
         std::sort(angles.begin(), angles.end());
         angles.push_back(angles.front() + 2 * 3.14159265358979323846);
@@ -173,7 +201,8 @@ class Splitter {
         return (radius - near) / (far - near);
     }
 
-    void split(HalfEdgeId h) {
+    // Whether there was room on the lattice to split the edge.
+    bool split(HalfEdgeId h) {
         constexpr double kMargin = 0.1;
         constexpr int kDeep = 24;
         const TriangleMesh& mesh = tin_.mesh;
@@ -190,7 +219,11 @@ class Splitter {
         const int generation_of_new = generation(c) + 1;
         double t = inner_product(key(c), key(a), key(b)) / inner_product(key(b), key(a), key(b));
         t = std::clamp(t, kMargin, 1 - kMargin);
-        const std::optional<VertexId> fan = find_fan(inserter_.line_edge_of(a, b), c);
+        const std::uint32_t line_edge = inserter_.line_edge_of(a, b);
+        if (line_edge == SteinerInserter::kFree) {
+            return true;  // nobody's line
+        }
+        const std::optional<VertexId> fan = find_fan(line_edge, c);
         if (fan && (generation_of_new >= kDeep || is_closed_fan(*fan))) {
             t = shell(*fan, a, b);
         }
@@ -199,19 +232,21 @@ class Splitter {
             made = inserter_.split(h, 0.5);
         }
         if (!made) {
-            return;  // no room left on the lattice: the edge stays open and is counted
+            return false;
         }
         generation_.push_back(generation_of_new);
-        for (const auto& [u, v] : inserter_.touched()) {
-            enqueue_open(u, v);
+        for (const HalfEdgeId touched : inserter_.touched()) {
+            enqueue(touched);
         }
+        return true;
     }
 
     SteinerInserter& inserter_;
     const Tin& tin_;
     std::size_t max_steiner_;
     const Progress& progress_;
-    std::deque<std::pair<VertexId, VertexId>> queue_;
+    std::deque<Open> queue_;
+    std::vector<Open> given_up_;
     std::vector<int> generation_;      // of Steiner points: how many were made one because of the other
     std::vector<std::uint32_t> fans_;  // where a vertex's entries in fan_edges_ begin
     std::vector<VertexId> fan_edges_;  // other ends of the edges of lines at each vertex
@@ -226,10 +261,11 @@ ConformingReport make_conforming(Tin& tin, const ConformingOptions& options) {
     SteinerInserter inserter(tin);
     const std::size_t max_steiner =
         options.max_steiner > 0 ? options.max_steiner : 10 * old_count + 100 * inserter.line_edges().size();
-    Splitter(inserter, max_steiner, options.progress).run();
+    Splitter splitter(inserter, max_steiner, options.progress);
+    splitter.run();
+    report.open_edges = splitter.count_open();
     inserter.finish();
     report.steiner_vertices = tin.vertex_count() - old_count;
-    report.open_edges = count_open_edges(tin);
     report.is_conforming = report.open_edges == 0;
     return report;
 }

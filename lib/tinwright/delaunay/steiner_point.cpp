@@ -42,7 +42,8 @@ std::uint32_t SteinerInserter::line_edge_of(VertexId a, VertexId b) const {
     }
     const auto found =
         std::lower_bound(line_edges_.begin(), line_edges_.end(), std::pair(std::min(a, b), std::max(a, b)));
-    return static_cast<std::uint32_t>(found - line_edges_.begin());
+    const bool is_found = found != line_edges_.end() && *found == std::pair(std::min(a, b), std::max(a, b));
+    return is_found ? static_cast<std::uint32_t>(found - line_edges_.begin()) : kFree;
 }
 
 std::optional<VertexId> SteinerInserter::split(HalfEdgeId h, double t) {
@@ -75,13 +76,13 @@ void SteinerInserter::find_places(std::uint32_t line_edge, Key2 from, Key2 to, d
                          (coordinate(end, is_x) - coordinate(begin, is_x));
     const double first = coordinate(from, is_x);
     const double last = coordinate(to, is_x);
-    const double aim = std::round(first + t * (last - first));
+    const double aim = Lattice::nearest_integer(first + t * (last - first));
     places_.clear();
     for (int i = -kReach; i <= kReach; ++i) {
         const double along = aim + i;
         if (along > std::min(first, last) && along < std::max(first, last)) {
-            const double across =
-                std::round(coordinate(begin, !is_x) + ratio * (along - coordinate(begin, is_x)));
+            const double across = Lattice::nearest_integer(coordinate(begin, !is_x) +
+                                                           ratio * (along - coordinate(begin, is_x)));
             const Key2 key = is_x ? Key2{along, across} : Key2{across, along};
             places_.push_back({std::abs(doubled_area(begin, end, key)), std::abs(along - aim), key});
         }
@@ -194,7 +195,7 @@ void SteinerInserter::settle(VertexId v) {
         unsettled_.pop_back();
         const HalfEdgeId t = mesh.twin(h);
         if (mesh.is_constrained(h)) {
-            touched_.emplace_back(mesh.origin(h), mesh.destination(h));
+            touched_.push_back(h);
             continue;
         }
         if (mesh.is_ghost(face_of(h)) || mesh.is_ghost(face_of(t)) ||
@@ -209,6 +210,51 @@ void SteinerInserter::settle(VertexId v) {
             unsettled_.push_back(previous(side));
         }
     }
+}
+
+// Moves the new vertices to their places in the curve's order; returns everybody's new number.
+std::vector<VertexId> SteinerInserter::sort_in() {
+    const std::size_t count = tin_.vertex_count();
+    struct Made {
+        Key2 key;
+        double z;
+        std::uint32_t sample;
+        std::size_t was;
+        std::size_t before;  // old vertices that come before it
+    };
+    std::vector<Made> made;
+    made.reserve(count - old_count_);
+    const auto old_end = tin_.keys.begin() + static_cast<std::ptrdiff_t>(old_count_);
+    for (std::size_t v = old_count_; v < count; ++v) {
+        const Key2 key = tin_.keys[v];
+        const auto after = std::lower_bound(tin_.keys.begin(), old_end, key, precedes_on_curve);
+        made.push_back(
+            {key, tin_.z[v], tin_.sample[v], v, static_cast<std::size_t>(after - tin_.keys.begin())});
+    }
+    std::sort(made.begin(), made.end(), [](const Made& a, const Made& b) {
+        return a.before != b.before ? a.before < b.before : precedes_on_curve(a.key, b.key);
+    });
+    std::vector<VertexId> new_ids(count);
+    std::size_t end = old_count_;  // of the old vertices that are yet to be moved
+    for (std::size_t i = made.size(); i > 0; --i) {
+        const Made& vertex = made[i - 1];
+        for (; end > vertex.before; --end) {
+            const std::size_t to = end - 1 + i;
+            tin_.keys[to] = tin_.keys[end - 1];
+            tin_.z[to] = tin_.z[end - 1];
+            tin_.sample[to] = tin_.sample[end - 1];
+            new_ids[end - 1] = {static_cast<std::uint32_t>(to)};
+        }
+        const std::size_t to = end + i - 1;
+        tin_.keys[to] = vertex.key;
+        tin_.z[to] = vertex.z;
+        tin_.sample[to] = vertex.sample;
+        new_ids[vertex.was] = {static_cast<std::uint32_t>(to)};
+    }
+    for (std::size_t v = 0; v < end; ++v) {
+        new_ids[v] = {static_cast<std::uint32_t>(v)};
+    }
+    return new_ids;
 }
 
 void SteinerInserter::finish() {
@@ -234,31 +280,7 @@ void SteinerInserter::finish() {
     }
     std::sort(chains.begin(), chains.end());
 
-    // Old vertices are in the curve's order already.
-    std::vector<VertexId> order(count);
-    for (std::uint32_t v = 0; v < count; ++v) {
-        order[v] = {v};
-    }
-    const auto is_before = [this](VertexId a, VertexId b) {
-        return precedes_on_curve(tin_.key(a), tin_.key(b));
-    };
-    const auto middle = order.begin() + static_cast<std::ptrdiff_t>(old_count_);
-    std::sort(middle, order.end(), is_before);
-    std::inplace_merge(order.begin(), middle, order.end(), is_before);
-    std::vector<VertexId> new_ids(count);
-    LargeVector<Key2> keys(count);
-    LargeVector<double> z(count);
-    LargeVector<std::uint32_t> sample(count);
-    for (std::uint32_t v = 0; v < count; ++v) {
-        const std::uint32_t was = order[v].value;
-        new_ids[was] = {v};
-        keys[v] = tin_.keys[was];
-        z[v] = tin_.z[was];
-        sample[v] = tin_.sample[was];
-    }
-    tin_.keys = std::move(keys);
-    tin_.z = std::move(z);
-    tin_.sample = std::move(sample);
+    const std::vector<VertexId> new_ids = sort_in();
     renumber_vertices(tin_.mesh, new_ids);
 
     std::vector<LineTrace> traces;

@@ -42,17 +42,16 @@ class SteinerInserter {
     /// is a vertex already or on a constrained edge. The walk to it starts at `near`.
     std::optional<VertexId> insert(Key2 key, double z, VertexId near);
 
-    /// Constrained edges (a, b) at the faces that the last insertion made or changed, in no special order;
-    /// each may be there more than once. Those of the vertex itself included.
-    [[nodiscard]] const std::vector<std::pair<VertexId, VertexId>>& touched() const { return touched_; }
+    /// Half-edges of the constrained edges of faces that the last insertion made or changed, those of the
+    /// vertex itself included, in no special order; an edge may be there more than once, and others with it.
+    [[nodiscard]] const std::vector<HalfEdgeId>& touched() const { return touched_; }
 
     /// Sorts the new vertices into the curve's order and cuts the traces at them. The object is done with.
     void finish();
 
-  private:
-    /// `line_edge_` of a vertex that is on no edge of a line.
     static constexpr std::uint32_t kFree = 0xFFFFFFFFU;
 
+  private:
     /// A lattice point that an edge could be split at.
     struct Place {
         double distance;  ///< from the line's edge, times that edge's length
@@ -67,13 +66,14 @@ class SteinerInserter {
     void take_starts(FaceId f);
     /// Restores the constrained Delaunay property around the faces of a new vertex.
     void settle(VertexId v);
+    std::vector<VertexId> sort_in();
 
     Tin& tin_;
     std::size_t old_count_;
     std::vector<HalfEdgeId> start_;
     std::vector<std::pair<VertexId, VertexId>> line_edges_;
     std::vector<std::uint32_t> line_edge_;  // of the vertices made, in the order they were made
-    std::vector<std::pair<VertexId, VertexId>> touched_;
+    std::vector<HalfEdgeId> touched_;
     std::vector<HalfEdgeId> unsettled_;  // both kept for their memory
     std::vector<Place> places_;
 };

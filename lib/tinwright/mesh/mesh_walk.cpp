@@ -6,19 +6,16 @@ namespace tinwright {
 
 std::vector<HalfEdgeId> find_starts(const TriangleMesh& mesh) {
     std::vector<HalfEdgeId> starts(mesh.vertex_count(), kNoHalfEdge);
-    const auto visit_faces = [&](bool ghosts) {
-        for (std::uint32_t f = 0; f < mesh.slot_count(); ++f) {
-            if (mesh.is_ghost({f}) != ghosts) {
-                continue;
-            }
-            for (unsigned corner = 0; corner < (ghosts ? 2U : 3U); ++corner) {
-                starts[mesh.vertex({f}, corner).value] = half_edge({f}, corner);
+    for (std::uint32_t f = 0; f < mesh.slot_count(); ++f) {
+        const TriangleMesh::Face& face = mesh.face({f});
+        const bool is_ghost = face.vertex[2] == kGhostVertex;
+        for (unsigned corner = 0; corner < (is_ghost ? 2U : 3U); ++corner) {
+            HalfEdgeId& start = starts[face.vertex[corner].value];
+            if (!is_ghost || start == kNoHalfEdge) {
+                start = half_edge({f}, corner);
             }
         }
-    };
-    // Ghosts first, so that real faces prevail.
-    visit_faces(true);
-    visit_faces(false);
+    }
     return starts;
 }
 
