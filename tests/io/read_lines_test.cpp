@@ -46,9 +46,9 @@ ReadLinesOptions skipping() {
     return options;
 }
 
-ReadLinesOptions listing() {
+ReadLinesOptions auditing() {
     ReadLinesOptions options;
-    options.list_problems = true;
+    options.keep_faults = true;
     return options;
 }
 
@@ -62,6 +62,14 @@ ReadLinesOptions working_in(const std::string& crs) {
     ReadLinesOptions options;
     options.crs = Crs::parse(crs);
     return options;
+}
+
+std::vector<std::int64_t> features_of(const Lines& lines) {
+    std::vector<std::int64_t> features;
+    for (const LinePart& part : lines.parts) {
+        features.push_back(part.feature);
+    }
+    return features;
 }
 
 std::string refusal(const std::vector<std::string>& rows, LineRole role = LineRole::Breakline,
@@ -88,7 +96,7 @@ TEST_SUITE("io/read_lines") {
         CHECK(same(lines.lines[1].points, {{1, 1, 1}, {2, 2, 2}}));
         CHECK(lines.lines[0].role == LineRole::Breakline);
         CHECK(lines.lines[0].is_sharp);
-        CHECK(lines.features == std::vector<std::int64_t>{1, 2});
+        CHECK(features_of(lines) == std::vector<std::int64_t>{1, 2});
         CHECK(lines.describe(1) == R"(file "/vsimem/lines.csv", layer "lines", feature 2)");
         REQUIRE(lines.slices.size() == 1);
         CHECK(lines.slices[0].count == 2);
@@ -101,7 +109,7 @@ TEST_SUITE("io/read_lines") {
                                       row("GEOMETRYCOLLECTION Z (LINESTRING Z (0 1 0,1 1 0),POLYGON Z ((0 0 "
                                           "5,9 0 5,0 9 5,0 0 5),(1 1 5,2 1 5,1 2 5,1 1 5)))")});
         REQUIRE(lines.lines.size() == 5);
-        CHECK(lines.features == std::vector<std::int64_t>{1, 1, 2, 2, 2});
+        CHECK(features_of(lines) == std::vector<std::int64_t>{1, 1, 2, 2, 2});
         CHECK(same(lines.lines[4].points, {{1, 1, 5}, {2, 1, 5}, {1, 2, 5}, {1, 1, 5}}));
     }
 
@@ -197,7 +205,7 @@ TEST_SUITE("io/read_lines") {
               R"(file "/vsimem/odd.gpkg", layer "odd", feature 3: has a coordinate that is not finite; )"
               R"(--skip-bad goes on without it)");
         const Lines lines = read_one(path, LineRole::Breakline, skipping());
-        CHECK(lines.features == std::vector<std::int64_t>{1});
+        CHECK(features_of(lines) == std::vector<std::int64_t>{1});
         CHECK(lines.slices[0].skipped == 2);
         REQUIRE(lines.warnings.size() == 1);
         CHECK(lines.warnings[0].starts_with(
@@ -227,23 +235,90 @@ TEST_SUITE("io/read_lines") {
         CHECK(closed.conflicts[0].location == Point2{0, 0.25});
 
         const Lines skipped = read_wkt(rows, LineRole::Boundary, "", skipping());
-        CHECK(skipped.features == std::vector<std::int64_t>{1});
+        CHECK(features_of(skipped) == std::vector<std::int64_t>{1});
         CHECK(skipped.slices[0].skipped == 1);
     }
 
     TEST_CASE("an audit gets the lines with their faults listed") {
-        const Lines lines = read_wkt({row("LINESTRING (5 6,9 0)"), row("LINESTRING Z (0 0 1,9 0 1)")},
-                                     LineRole::Breakline, "", listing());
-        REQUIRE(lines.lines.size() == 2);
-        REQUIRE(lines.conflicts.size() == 1);
+        const Lines lines = read_wkt({row("LINESTRING (5 6,9 0)"), row("LINESTRING Z (0 0 1,9 0 1)"),
+                                      row("LINESTRING (7 8)"), row("POINT Z (1 2 3)"), ","},
+                                     LineRole::Breakline, "", auditing());
+        REQUIRE(lines.lines.size() == 3);
+        CHECK(features_of(lines) == std::vector<std::int64_t>{1, 2, 3});
+        CHECK(lines.parts[0].lacks_z);
+        CHECK_FALSE(lines.parts[1].lacks_z);
+        CHECK(lines.lines[2].points.size() == 1);
+        REQUIRE(lines.conflicts.size() == 2);
         CHECK(lines.conflicts[0].kind == LineConflict::Kind::MissingZ);
         CHECK(lines.conflicts[0].action == LineConflict::Action::Reported);
         CHECK(lines.conflicts[0].line_a == 0);
         CHECK(lines.conflicts[0].location == Point2{5, 6});
-        const Lines rings = read_wkt({row("LINESTRING (0 0,9 0,0 9)")}, LineRole::Hole, "", listing());
-        REQUIRE(rings.conflicts.size() == 1);
-        CHECK(rings.conflicts[0].kind == LineConflict::Kind::OpenRing);
-        CHECK(rings.lines[0].points.size() == 3);
+        CHECK(lines.conflicts[1].line_a == 2);
+        REQUIRE(lines.faults.size() == 2);
+        CHECK(lines.faults[0].feature == 4);
+        CHECK(lines.faults[0].layer == "lines");
+        CHECK(lines.faults[0].what == "is a POINT, neither line nor polygon");
+        CHECK(lines.faults[1].what == "has no geometry");
+        CHECK(lines.warnings.empty());
+
+        const Lines draped =
+            read_wkt({row("LINESTRING (5 6,9 0)")}, LineRole::Breakline, ",z=drape", auditing());
+        CHECK(draped.conflicts.empty());
+        CHECK_FALSE(draped.parts[0].lacks_z);
+        CHECK(read_wkt({","}, LineRole::Breakline, "", auditing()).lines.empty());
+    }
+
+    TEST_CASE("an audit gets open rings as they are, polygons' too") {
+        for (const char* const wkt : {"LINESTRING (0 0,9 0,0 9)", "POLYGON ((0 0,9 0,0 9))"}) {
+            CAPTURE(wkt);
+            const bool is_polygon = wkt[0] == 'P';
+            const Lines rings = read_wkt({row(wkt)}, LineRole::Hole, "", auditing());
+            REQUIRE(rings.lines.size() == 1);
+            CHECK(rings.lines[0].points.size() == 3);
+            CHECK(rings.parts[0].is_ring == is_polygon);
+            REQUIRE(rings.conflicts.size() == 1);
+            CHECK(rings.conflicts[0].kind == LineConflict::Kind::OpenRing);
+            CHECK(rings.conflicts[0].action == LineConflict::Action::Reported);
+            if (is_polygon) {
+                CHECK(read_wkt({row(wkt)}, LineRole::Hole).lines[0].points.size() == 4);
+                CHECK(read_wkt({row(wkt)}, LineRole::Breakline, ",z=1", auditing()).conflicts.size() == 1);
+            }
+        }
+    }
+
+    TEST_CASE("parts are numbered through a feature's geometry") {
+        const Lines lines = read_wkt(
+            {row("GEOMETRYCOLLECTION Z (LINESTRING Z (0 1 0,1 1 0),POLYGON Z ((0 0 5,9 0 5,0 9 5,0 0 5),"
+                 "(1 1 5,2 1 5,1 2 5,1 1 5)),MULTILINESTRING Z ((0 0 0,1 0 0),(2 0 0,3 0 0)))"),
+             row("LINESTRING Z (7 1 0,8 1 0)")});
+        std::vector<std::uint32_t> parts;
+        std::vector<bool> rings;
+        for (const LinePart& part : lines.parts) {
+            parts.push_back(part.part);
+            rings.push_back(part.is_ring);
+        }
+        CHECK(parts == std::vector<std::uint32_t>{0, 1, 2, 3, 4, 0});
+        CHECK(rings == std::vector<bool>{false, true, true, false, false, false});
+    }
+
+    TEST_CASE("a source can be asked whether it is lines") {
+        VectorFile file("GPKG", "asked.gpkg");
+        add_feature(file.add_layer("any", wkbUnknown), "LINESTRING (0 0,1 1)");
+        file.add_layer("lakes", wkbMultiPolygon);
+        SUBCASE("all layers are") { CHECK(has_lines(parse_source(file.close()))); }
+        SUBCASE("some layers are") {
+            file.add_layer("points", wkbPoint25D);
+            const std::string path = file.close();
+            CHECK_FALSE(has_lines(parse_source(path)));
+            CHECK(has_lines(parse_source(path + ",layer=any")));
+            CHECK(has_lines(parse_source(path + ",layer=lakes")));
+            CHECK_FALSE(has_lines(parse_source(path + ",layer=points")));
+            CHECK_FALSE(has_lines(parse_source(path + ",layer=lakes,vertices=yes")));
+        }
+        SUBCASE("text is not") {
+            const MemoryFile text("t.csv", "x,y,z\n1,2,3\n");
+            CHECK_FALSE(has_lines(parse_source(text.path())));
+        }
     }
 
     TEST_CASE("sharpness is one for all or a field's") {
@@ -380,7 +455,7 @@ TEST_SUITE("io/read_lines") {
                   .starts_with(
                       R"(file "/vsimem/far.gpkg", layer "l", feature 2: (9.1, 480) cannot be transformed)"));
         options.skip_bad = true;
-        CHECK(read_one(path, LineRole::Breakline, options).features == std::vector<std::int64_t>{1});
+        CHECK(features_of(read_one(path, LineRole::Breakline, options)) == std::vector<std::int64_t>{1});
         CHECK(message_of<InputError>([&] { read_one(path); }).find("degrees cannot be measured") !=
               std::string::npos);
     }

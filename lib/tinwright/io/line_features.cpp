@@ -14,9 +14,16 @@ namespace tinwright::io {
 
 void RawLines::resize(std::size_t size) {
     lines.resize(size);
-    features.resize(size);
+    parts.resize(size);
     ordinals.resize(size);
-    is_missing_z.resize(size);
+}
+
+void RawLines::add_bad(const LinePlan& plan, std::int64_t feature, const std::string& why) {
+    if (plan.keeps_faults) {
+        faults.push_back({0, {}, feature, why});
+    } else {
+        bad.add(plan.where + ", feature " + std::to_string(feature) + ": " + why);
+    }
 }
 
 /// Closed lines of one feature are rings of one polygon.
@@ -35,10 +42,10 @@ std::string FeatureLines::add_line(const Curve& curve, bool is_ring, std::uint32
     const int count = curve.getNumPoints();
     const bool has_z = curve.Is3D() != 0;
     const bool is_draped = !z_ && (plan_.is_draped || (!has_z && plan_.may_lack_z));
-    if (count < 2) {
+    if (count < 2 && !plan_.keeps_faults) {
         return "has a line of one point";
     }
-    if (!z_ && !is_draped && !has_z && !plan_.lists_missing_z) {
+    if (!z_ && !is_draped && !has_z && !plan_.keeps_faults) {
         return "has no z" + plan_.advice;
     }
     Breakline line;
@@ -56,7 +63,7 @@ std::string FeatureLines::add_line(const Curve& curve, bool is_ring, std::uint32
             const double own_z = has_z ? curve.getZ(i) : kDraped;
             point.z = z_.value_or(own_z);
             if (!std::isfinite(point.z)) {
-                if (!plan_.lists_missing_z) {
+                if (!plan_.keeps_faults) {
                     return "has an elevation that is not finite at " + location_text({point.x, point.y}) +
                            plan_.advice;
                 }
@@ -67,13 +74,13 @@ std::string FeatureLines::add_line(const Curve& curve, bool is_ring, std::uint32
         line.points.push_back(point);
     }
     const Point3 first = line.points.front();
-    if (is_ring && (line.points.back().x != first.x || line.points.back().y != first.y)) {
+    if (is_ring && !plan_.keeps_faults &&
+        (line.points.back().x != first.x || line.points.back().y != first.y)) {
         line.points.push_back(first);
     }
     raw_.lines.push_back(std::move(line));
-    raw_.features.push_back(id_);
+    raw_.parts.push_back({id_, part_++, is_ring, is_missing_z});
     raw_.ordinals.push_back(raw_.count);
-    raw_.is_missing_z.push_back(is_missing_z);
     return {};
 }
 
@@ -121,7 +128,7 @@ std::string FeatureLines::read_attributes(const OGRFeature& feature) {
         std::string error = field_number(feature, plan_.z_field, value);
         if (error.empty()) {
             z_ = value;
-        } else if (!plan_.lists_missing_z) {
+        } else if (!plan_.keeps_faults) {
             return error;
         } else {
             z_ = kDraped;
@@ -141,6 +148,7 @@ std::string FeatureLines::read_attributes(const OGRFeature& feature) {
 void FeatureLines::add(const OGRFeature& feature) {
     id_ = feature.GetFID();
     polygon_of_lines_.reset();
+    part_ = 0;
     const std::size_t before = raw_.lines.size();
     const std::uint32_t polygons_before = raw_.polygons;
     std::string error = read_attributes(feature);
@@ -156,7 +164,7 @@ void FeatureLines::add(const OGRFeature& feature) {
     if (!error.empty()) {
         raw_.resize(before);
         raw_.polygons = polygons_before;
-        raw_.bad.add(plan_.where + ", feature " + std::to_string(id_) + ": " + error);
+        raw_.add_bad(plan_, id_, error);
     }
     ++raw_.count;
 }

@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "tinwright/breaklines/breakline.hpp"
+#include "tinwright/io/line_plan.hpp"
 #include "tinwright/io/raw_slice.hpp"
+#include "tinwright/io/read_lines.hpp"
 
 class OGRFeature;
 class OGRGeometry;
@@ -15,33 +17,21 @@ class OGRGeometry;
 /// Private to the reader of lines: features become lines.
 namespace tinwright::io {
 
-/// What to take from the features of a layer; fields are indices, -1 for none.
-struct LinePlan {
-    LineRole role = LineRole::Breakline;
-    std::string where;  ///< for messages: `file "a.gpkg", layer "p"`
-    int z_field = -1;
-    std::optional<double> z_constant;
-    bool is_draped = false;        ///< z is none of the file's business
-    bool may_lack_z = false;       ///< geometries without z are draped
-    bool lists_missing_z = false;  ///< points without a finite z are draped and noted, not an error
-    int across_field = -1;
-    bool is_sharp = true;  ///< where there is no such field
-    std::string advice;    ///< what to try when z is missing
-};
-
 /// The lines of one layer.
 struct RawLines {
     explicit RawLines(bool skip_bad) : bad(skip_bad) {}
 
     std::vector<Breakline> lines;
-    std::vector<std::int64_t> features;
+    std::vector<LinePart> parts;          ///< one a line
     std::vector<std::uint32_t> ordinals;  ///< of each line: which feature, counted from 0
-    std::vector<bool> is_missing_z;       ///< of each line: draped in want of z
-    std::uint32_t count = 0;              ///< features looked at
-    std::uint32_t polygons = 0;           ///< numbers given so far, through all layers
+    std::vector<FeatureFault> faults;  ///< instead of `bad` where faults are kept; source and layer not set
+    std::uint32_t count = 0;           ///< features looked at
+    std::uint32_t polygons = 0;        ///< numbers given so far, through all layers
     BadSamples bad;
 
     void resize(std::size_t size);
+    /// Notes a feature that cannot be used. Throws InputError unless such are skipped or kept.
+    void add_bad(const LinePlan& plan, std::int64_t feature, const std::string& why);
 };
 
 /// Turns features into lines.
@@ -66,6 +56,7 @@ class FeatureLines {
     std::optional<double> z_;
     bool is_sharp_ = true;
     std::optional<std::uint32_t> polygon_of_lines_;
+    std::uint32_t part_ = 0;
 };
 
 }  // namespace tinwright::io

@@ -7,7 +7,6 @@
 #include <memory>
 #include <utility>
 
-#include <cpl_port.h>
 #include <gdal_priv.h>
 #include <ogrsf_frmts.h>
 
@@ -16,7 +15,6 @@
 #include "tinwright/io/gdal_session.hpp"
 #include "tinwright/io/line_features.hpp"
 #include "tinwright/io/open_source.hpp"
-#include "tinwright/io/vector_layer.hpp"
 #include "tinwright/io/working_plane.hpp"
 
 namespace tinwright::io {
@@ -24,53 +22,8 @@ namespace {
 
 std::string label(const Source& source) { return "file " + quoted(source.path); }
 
-bool may_have_lines(OGRLayer& layer) {
-    const OGRwkbGeometryType type = wkbFlatten(layer.GetGeomType());
-    return type == wkbUnknown || type == wkbGeometryCollection || OGR_GT_IsSubClassOf(type, wkbCurve) != 0 ||
-           OGR_GT_IsSubClassOf(type, wkbSurface) != 0 || OGR_GT_IsSubClassOf(type, wkbMultiCurve) != 0 ||
-           OGR_GT_IsSubClassOf(type, wkbMultiSurface) != 0;
-}
-
 std::string name_of(LineRole role) {
     return role == LineRole::Breakline ? "breaklines" : role == LineRole::Boundary ? "boundaries" : "holes";
-}
-
-/// Fills z and sharpness into the plan for a layer, as the source's keys say.
-void plan_attributes(LinePlan& plan, const VectorLayer& layer, const Source& source) {
-    const std::string numeric = layer.numeric_fields();
-    plan.advice = "; give z=FIELD, z=NUMBER, or z=drape to take it from the samples" +
-                  (numeric.empty() ? "" : " (numeric fields: " + numeric + ")");
-    plan.is_draped = source.z && *source.z == "drape";
-    plan.may_lack_z = plan.role != LineRole::Breakline && !source.z;
-    if (source.z && !plan.is_draped) {
-        const VectorLayer::Elevation z = layer.elevation(*source.z);
-        plan.z_field = z.field;
-        plan.z_constant = z.constant;
-    }
-    if (source.across && *source.across == "smooth") {
-        plan.is_sharp = false;
-    } else if (source.across && *source.across != "sharp") {
-        plan.across_field = layer.field("across", *source.across);
-    }
-}
-
-/// Refuses layers whose declared type says that no feature can be used, skipped bad ones or not.
-void check_geometry_type(const LinePlan& plan, OGRLayer& layer) {
-    const OGRwkbGeometryType declared = layer.GetGeomType();
-    const OGRwkbGeometryType type = wkbFlatten(declared);
-    if (type == wkbNone) {
-        throw InputError(plan.where +
-                         ": a table without geometries; for text with a column of WKT name it with "
-                         "oo=GEOM_POSSIBLE_NAMES=COLUMN");
-    }
-    if (type == wkbPoint || type == wkbMultiPoint) {
-        throw InputError(plan.where + ": has " + OGRGeometryTypeToName(type) +
-                         " features, no lines or polygons");
-    }
-    const bool has_z = OGR_GT_HasZ(declared) != 0 || plan.z_field >= 0 || plan.z_constant || plan.is_draped;
-    if (type != wkbUnknown && !has_z && !plan.may_lack_z && !plan.lists_missing_z) {
-        throw InputError(plan.where + ": the geometries have no z" + plan.advice);
-    }
 }
 
 /// One read_lines().
@@ -113,16 +66,8 @@ class LineReader {
         if (!opened.warning.empty()) {
             out_.warnings.push_back(opened.warning);
         }
-        const VectorLayer layer(
-            *opened.dataset, sources_[s], label(sources_[s]),
-            {may_have_lines, "no layer has lines or polygons", "several layers may have lines", ""});
-        LinePlan plan;
-        plan.role = roles_[s].role;
-        plan.where = layer.where();
-        plan.lists_missing_z = options_.list_problems;
-        plan_attributes(plan, layer, sources_[s]);
-        check_geometry_type(plan, layer.layer());
-
+        const VectorLayer layer(*opened.dataset, sources_[s], label(sources_[s]), wanted_lines());
+        const LinePlan plan = make_line_plan(layer, sources_[s], roles_[s].role, options_.keep_faults);
         RawLines raw(options_.skip_bad);
         raw.polygons = polygons_;
         read_features(s, plan, layer, raw);
@@ -162,7 +107,7 @@ class LineReader {
     }
 
     static void require_lines(const LinePlan& plan, const RawLines& raw) {
-        if (!raw.lines.empty()) {
+        if (!raw.lines.empty() || plan.keeps_faults) {
             return;
         }
         throw InputError(plan.where + (raw.bad.count() > 0
@@ -209,11 +154,12 @@ class LineReader {
     /// Closes rings within the snapping distance; features with a wider gap are bad.
     void close_rings(const LinePlan& plan, RawLines& raw) {
         std::vector<std::pair<std::size_t, std::string>> bad;
-        for (std::size_t i = 0; i < raw.lines.size() && plan.role != LineRole::Breakline; ++i) {
+        for (std::size_t i = 0; i < raw.lines.size(); ++i) {
+            const bool must_close = plan.role != LineRole::Breakline || raw.parts[i].is_ring;
             std::vector<Point3>& points = raw.lines[i].points;
             const Point3 first = points.front();
             const Point3 last = points.back();
-            if (last.x == first.x && last.y == first.y) {
+            if (!must_close || (last.x == first.x && last.y == first.y)) {
                 continue;
             }
             const double gap = std::hypot(last.x - first.x, last.y - first.y);
@@ -222,10 +168,10 @@ class LineReader {
             conflict.location = {last.x, last.y};
             conflict.line_a = static_cast<std::uint32_t>(i);
             conflict.z_a = last.z;
-            if (gap <= options_.snap && points.size() > 3) {
+            if (gap <= options_.snap && points.size() > 3 && !options_.keep_faults) {
                 points.back() = first;
                 conflict.action = LineConflict::Action::Snapped;
-            } else if (!options_.list_problems) {
+            } else if (!options_.keep_faults) {
                 bad.emplace_back(i, "a ring is not closed: it begins at " +
                                         location_text({first.x, first.y}) + " and ends at " +
                                         location_text({last.x, last.y}) +
@@ -244,7 +190,7 @@ class LineReader {
         std::vector<std::uint32_t> dropped;  // ascending, as lines are in feature order
         for (const auto& [line, why] : bad) {
             if (dropped.empty() || dropped.back() != raw.ordinals[line]) {
-                raw.bad.add(plan.where + ", feature " + std::to_string(raw.features[line]) + ": " + why);
+                raw.add_bad(plan, raw.parts[line].feature, why);
                 dropped.push_back(raw.ordinals[line]);
             }
         }
@@ -256,9 +202,8 @@ class LineReader {
             const std::size_t to = kept.size();
             if (to != i) {
                 raw.lines[to] = std::move(raw.lines[i]);
-                raw.features[to] = raw.features[i];
+                raw.parts[to] = raw.parts[i];
                 raw.ordinals[to] = raw.ordinals[i];
-                raw.is_missing_z[to] = raw.is_missing_z[i];
             }
             kept.push_back(i);
         }
@@ -279,7 +224,7 @@ class LineReader {
 
     void note_missing_z(const RawLines& raw) {
         for (std::size_t i = 0; i < raw.lines.size(); ++i) {
-            if (!raw.is_missing_z[i]) {
+            if (!raw.parts[i].lacks_z) {
                 continue;
             }
             const std::vector<Point3>& points = raw.lines[i].points;
@@ -308,7 +253,12 @@ class LineReader {
         out_.slices.push_back(std::move(slice));
         polygons_ = raw.polygons;
         std::move(raw.lines.begin(), raw.lines.end(), std::back_inserter(out_.lines));
-        out_.features.insert(out_.features.end(), raw.features.begin(), raw.features.end());
+        out_.parts.insert(out_.parts.end(), raw.parts.begin(), raw.parts.end());
+        for (FeatureFault& fault : raw.faults) {
+            fault.source = s;
+            fault.layer = layer.layer().GetName();
+            out_.faults.push_back(std::move(fault));
+        }
         if (raw.bad.count() > 0) {
             out_.warnings.push_back(label(sources_[s]) + ": " + std::to_string(raw.bad.count()) +
                                     " unusable feature" + (raw.bad.count() == 1 ? "" : "s") + " among the " +
@@ -340,7 +290,7 @@ std::string Lines::describe(std::size_t line) const {
     }
     const LineSlice& slice = slice_of(line);
     return "file " + quoted(slice.file) + ", layer " + quoted(slice.layer) + ", feature " +
-           std::to_string(features[line]);
+           std::to_string(parts[line].feature);
 }
 
 Lines read_lines(std::span<const LineSource> sources, const ReadLinesOptions& options) {

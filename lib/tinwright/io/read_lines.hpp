@@ -27,11 +27,27 @@ struct ReadLinesOptions {
     Crs source_crs;         ///< --source-crs: for sources that carry none; a source's crs= comes first
     std::string z_unit;     ///< of the samples; empty when unknown
     double snap = 0;        ///< rings whose ends are at most this far apart (CRS units, >= 0) are closed
-    /// Keep what could not be used, listed in `Lines::conflicts`, instead of failing: points without a finite
-    /// z (draped, `MissingZ`, one a line) and rings that are not closed (as they are, `OpenRing`). For
-    /// audits.
-    bool list_problems = false;
+    /// For audits: keeps and lists faults that otherwise end the reading. Points without a finite z become
+    /// draped (`MissingZ`, one a line), rings that are not closed stay open (`OpenRing`), lines may have a
+    /// single point; features that cannot be used at all are left out and are in `Lines::faults`.
+    bool keep_faults = false;
     Progress progress;
+};
+
+/// Which part of a feature a line is.
+struct LinePart {
+    std::int64_t feature = 0;  ///< feature id
+    std::uint32_t part = 0;    ///< number among the curves of the feature's geometry, depth first, from 0
+    bool is_ring = false;      ///< of a polygon
+    bool lacks_z = false;      ///< a point should have had z and has none; under keep_faults only
+};
+
+/// A feature that cannot be used, under keep_faults.
+struct FeatureFault {
+    std::size_t source = 0;  ///< index of the source
+    std::string layer;
+    std::int64_t feature = 0;
+    std::string what;  ///< half a sentence: `has a coordinate that is not finite`
 };
 
 /// The part of an array of lines that came from one layer.
@@ -46,11 +62,12 @@ struct LineSlice {
 };
 
 struct Lines {
-    std::vector<Breakline> lines;        ///< in the working CRS; polygons numbered through all sources
-    std::vector<std::int64_t> features;  ///< feature id of each line
+    std::vector<Breakline> lines;  ///< in the working CRS; polygons numbered through all sources
+    std::vector<LinePart> parts;   ///< one a line
     std::vector<LineSlice> slices;
-    /// What was done while reading: rings closed within `snap`, and under list_problems those above.
+    /// What was done while reading: rings closed within `snap`, and under keep_faults those above.
     std::vector<LineConflict> conflicts;
+    std::vector<FeatureFault> faults;   ///< under keep_faults
     Crs crs;                            ///< the working CRS, may be unknown
     std::string z_unit;                 ///< empty when unknown
     std::vector<std::string> warnings;  ///< one line each
@@ -69,6 +86,12 @@ struct Lines {
 /// the samples' one without being asked. Throws IoError (cannot be opened or read), InputError (unusable
 /// content, naming file, layer and feature), UsageError (keys that do not fit), Cancelled. O(n).
 Lines read_lines(std::span<const LineSource> sources, const ReadLinesOptions& options = {});
+
+/// Whether the source is lines or polygons rather than samples: the layer that it names, or all that there
+/// are (one of them at least), by their declared types, or where those leave it open by the first feature.
+/// Keys that only samples have say no. A TIN of polygons counts as well: ask `is_tin` first. Throws IoError
+/// when it cannot be opened.
+bool has_lines(const Source& source);
 
 }  // namespace tinwright::io
 

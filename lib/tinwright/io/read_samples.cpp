@@ -192,15 +192,17 @@ class SampleReader {
 
 }  // namespace
 
-std::string Samples::describe(std::size_t sample) const {
+const SampleSlice* Samples::find_slice(std::size_t sample) const {
     const auto after =
         std::upper_bound(slices.begin(), slices.end(), sample,
                          [](std::size_t s, const SampleSlice& slice) { return s < slice.first; });
-    if (after == slices.begin() || sample >= points.size()) {
-        return "sample " + std::to_string(sample);
-    }
-    const SampleSlice& slice = *std::prev(after);
-    return describe_id(slice, slice.id(sample - slice.first));
+    return after == slices.begin() || sample >= points.size() ? nullptr : &*std::prev(after);
+}
+
+std::string Samples::describe(std::size_t sample) const {
+    const SampleSlice* const slice = find_slice(sample);
+    return slice == nullptr ? "sample " + std::to_string(sample)
+                            : describe_id(*slice, slice->id(sample - slice->first));
 }
 
 Samples read_samples(std::span<const Source> sources, const ReadOptions& options) {

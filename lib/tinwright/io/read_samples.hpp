@@ -50,6 +50,8 @@ struct Samples {
     std::vector<std::string> warnings;  ///< one line each
     double seconds = 0;
 
+    /// The slice of a sample; null for an index that is none.
+    [[nodiscard]] const SampleSlice* find_slice(std::size_t sample) const;
     /// Where a sample came from, for messages: `file "a.csv", line 12` or `file "a.gpkg", layer "p", feature
     /// 7`.
     [[nodiscard]] std::string describe(std::size_t sample) const;
