@@ -26,8 +26,9 @@ struct Breakline {
     LineRole role = LineRole::Breakline;
     /// Whether smooth interpolators break the surface's normal across it; nothing to a plain TIN.
     bool is_sharp = true;
-    /// Boundary, Hole: rings with the same number belong to one polygon; a place is inside it if an odd
-    /// number of its rings goes around it, so inner rings are islands.
+    /// Boundary, Hole, and rings of polygons taken as breaklines: rings with the same number belong to one
+    /// polygon; a place is inside it if an odd number of its rings goes around it, so inner rings are
+    /// islands.
     std::uint32_t polygon = 0;
 };
 

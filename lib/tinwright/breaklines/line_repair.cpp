@@ -12,7 +12,7 @@
 #include "tinwright/breaklines/keyed_lines.hpp"
 #include "tinwright/breaklines/line_chains.hpp"
 #include "tinwright/breaklines/line_segments.hpp"
-#include "tinwright/breaklines/line_snapping.hpp"
+#include "tinwright/breaklines/point_joining.hpp"
 #include "tinwright/breaklines/segment_distance.hpp"
 #include "tinwright/geometry/decimal.hpp"
 #include "tinwright/geometry/error.hpp"

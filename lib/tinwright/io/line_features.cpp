@@ -108,7 +108,7 @@ std::string FeatureLines::collect(const OGRGeometry& geometry) {
         return add_line(*geometry.toLineString(), false, polygon_of_lines());
     }
     if (type == wkbPolygon || type == wkbTriangle) {
-        const std::uint32_t polygon = plan_.role == LineRole::Breakline ? 0 : raw_.polygons++;
+        const std::uint32_t polygon = raw_.polygons++;
         for (const OGRLinearRing* const ring : *geometry.toPolygon()) {
             std::string error = ring->IsEmpty() != 0 ? "has an empty ring" : add_line(*ring, true, polygon);
             if (!error.empty()) {

@@ -1,4 +1,4 @@
-#include "tinwright/breaklines/line_snapping.hpp"
+#include "tinwright/breaklines/point_joining.hpp"
 
 #include <algorithm>
 #include <cstddef>
