@@ -22,6 +22,7 @@ struct NodingOptions {
     /// Points of lines closer than this (CRS units, >= 0) to another line's point, else to another line, are
     /// moved together; 0: nothing is moved.
     double snap = 0;
+    bool keep_chains = false;  ///< fills `NodedLines::chains`
     Progress progress;
 };
 
@@ -46,19 +47,32 @@ struct NodedLines {
     std::vector<NodedPiece> pieces;       ///< by a, b, line; each triple once
     std::vector<LineConflict> conflicts;  ///< by location in curve order, then kind
     bool is_rounded = false;  ///< whether a crossing was moved to the lattice (by less than a step)
+    /// Only if asked for: vertices along line i in its direction, consecutive ones different, are
+    /// chains[chain_start[i]] up to chains[chain_start[i + 1]], the latter excluded. A line without length
+    /// has one vertex, a line without points none.
+    std::vector<std::uint32_t> chains;
+    std::vector<std::uint32_t> chain_start;
 };
 
 /// Cuts lines where they meet: crossings, touching ends, overlaps, duplicates, lines through themselves,
 /// points on other lines, parts without length.
 ///
 /// `lattice` is the one that vertices come to lie on (every line's point already does); crossings are found
-/// exactly and rounded to it. Where that bends pieces into new crossings, the lines concerned are led through
-/// the lattice squares that they pass, as snap rounding does [hobby1999; guibas1998], so that every piece
-/// stays within half a step (in x and in y) of its line and no two pieces cross. Lines that nothing was
-/// rounded on stay exactly as they were. Vertices, elevations and pieces do not depend on the order and the
-/// directions of the lines, policy First aside; line numbers do as far as they must. Throws BreaklineError
-/// under policy Error where elevations clash. O((n + k) log n) for n points and k crossings in practice;
-/// parallel inside the caller's task arena.
+/// exactly and rounded to it. Segments with a rounded crossing, and any that would cross one of them for
+/// that, are led through the lattice squares that they pass, as snap rounding does [hobby1999; guibas1998],
+/// so that every piece stays within half a step (in x and in y) of its segment and no two pieces cross. All
+/// others stay exactly as they were.
+///
+/// Elevations: of a line's point its z, else linear along the segment; draped lines take those of others.
+/// Differences that come of rounding do not count: a few units in the last place and, where lines were bent,
+/// two lattice steps up the steepest segment there. Lines that share points with one z have no conflict.
+///
+/// Vertices, elevations and pieces do not depend on the order and the directions of the lines, policy First
+/// aside; line numbers do as far as they must. Conflicts are one a kind and place, of the lines with the
+/// smallest numbers, but for ZeroLength and Duplicate, which name each line; stretches of an Overlap count as
+/// one place. Throws BreaklineError under policy Error where elevations clash; InputError for more than 2^29
+/// points. O((n + k) log n) for n points and k crossings in practice; parallel inside the caller's task
+/// arena.
 NodedLines node_lines(std::span<const Breakline> lines, const Lattice& lattice,
                       const NodingOptions& options = {});
 

@@ -60,6 +60,48 @@ Int256 product(Int128 a, Int128 b) {
     return result;
 }
 
+// Sign of a b - c d.
+int compare_products(Int128 a, Int128 b, Int128 c, Int128 d) {
+    Int256 difference = product(a, b);
+    difference += product(-c, d);
+    return difference.sign();
+}
+
+// Where a segment meets another, as the fraction num / den of the way from one end to the other, 0 < num <
+// den.
+struct Fraction {
+    Int128 num;
+    Int128 den;
+    double value;  // errs by at most three units of itself
+};
+
+struct RoundedStep {
+    std::int64_t steps;
+    bool is_exact;
+};
+
+// `fraction` of `whole` steps rounded to the nearest integer, halves up.
+RoundedStep round_part(const Fraction& fraction, std::int64_t whole) {
+    const double guess = fraction.value * static_cast<double>(whole);
+    const double error = 5 * internal::kUnit * std::abs(guess);
+    const double nearest = std::floor(guess + 0.5);
+    auto steps = static_cast<std::int64_t>(nearest);
+    const double off = guess - nearest;
+    if (std::abs(off) > error && std::abs(off) < 0.5 - error) {
+        return {steps, false};
+    }
+    const auto is_below = [&](std::int64_t half_steps) {
+        return compare_products(2 * fraction.num, whole, fraction.den, half_steps) < 0;
+    };
+    while (is_below(2 * steps - 1)) {
+        --steps;
+    }
+    while (!is_below(2 * steps + 1)) {
+        ++steps;
+    }
+    return {steps, compare_products(fraction.num, whole, fraction.den, steps) == 0};
+}
+
 }  // namespace
 
 namespace internal {
@@ -138,6 +180,24 @@ int angle_sign_int128(Key2 a, Key2 apex, Key2 b) {
                 static_cast<Int128>(difference(a.y, apex.y)) * difference(b.y, apex.y));
 }
 
+SquarePass pass_square_int128(Key2 a, Key2 b, Key2 c) {
+    const Int128 dx = difference(b.x, a.x);
+    const Int128 dy = difference(b.y, a.y);
+    const Int128 side = dx * difference(c.y, a.y) - dy * difference(c.x, a.x);
+    if (side == 0) {
+        return SquarePass::Center;
+    }
+    const int reach =
+        sign(static_cast<Int128>(magnitude(dx) + magnitude(dy)) - static_cast<Int128>(2 * magnitude(side)));
+    if (reach != 0) {
+        return reach < 0 ? SquarePass::Apart : SquarePass::Through;
+    }
+    // Through a corner: only the lower left one belongs to the square. A segment that falls from left to
+    // right meets it if c lies above.
+    const bool falls = (dx < 0) != (dy < 0);
+    return falls && (side > 0) == (dx > 0) ? SquarePass::Through : SquarePass::Corner;
+}
+
 }  // namespace internal
 
 int orient2d(Key2 a, Key2 b, Key2 c) {
@@ -168,6 +228,38 @@ int compare_distances(Key2 a, Key2 b, Key2 c, Key2 d) {
 int angle_sign(Key2 a, Key2 apex, Key2 b) {
     const int fast = internal::inner_product_local(internal::localize(a, apex), internal::localize(b, apex));
     return fast != internal::kUnsure ? fast : internal::angle_sign_int128(a, apex, b);
+}
+
+bool do_cross(Key2 a, Key2 b, Key2 c, Key2 d) {
+    return orient2d(a, b, c) * orient2d(a, b, d) < 0 && orient2d(c, d, a) * orient2d(c, d, b) < 0;
+}
+
+RoundedCrossing round_crossing(Key2 a, Key2 b, Key2 c, Key2 d) {
+    const Int128 dx = difference(d.x, c.x);
+    const Int128 dy = difference(d.y, c.y);
+    const std::int64_t along_x = difference(b.x, a.x);
+    const std::int64_t along_y = difference(b.y, a.y);
+    Fraction way{difference(c.x, a.x) * dy - difference(c.y, a.y) * dx, along_x * dy - along_y * dx, 0};
+    if (way.den < 0) {
+        way.num = -way.num;
+        way.den = -way.den;
+    }
+    way.value = static_cast<double>(way.num) / static_cast<double>(way.den);
+    const RoundedStep x = round_part(way, along_x);
+    const RoundedStep y = round_part(way, along_y);
+    return {{a.x + static_cast<double>(x.steps), a.y + static_cast<double>(y.steps)},
+            x.is_exact && y.is_exact};
+}
+
+SquarePass pass_square(Key2 a, Key2 b, Key2 c) {
+    const auto is_between = [](double value, double p, double q) {
+        return (p <= value && value <= q) || (q <= value && value <= p);
+    };
+    if (!is_between(c.x, a.x, b.x) || !is_between(c.y, a.y, b.y) ||
+        internal::is_apart_double(a, internal::direction(b, a), c)) {
+        return SquarePass::Apart;
+    }
+    return internal::pass_square_int128(a, b, c);
 }
 
 }  // namespace tinwright

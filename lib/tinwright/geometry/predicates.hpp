@@ -1,6 +1,8 @@
 #ifndef TINWRIGHT_GEOMETRY_PREDICATES_HPP
 #define TINWRIGHT_GEOMETRY_PREDICATES_HPP
 
+#include <cstdint>
+
 #include "tinwright/geometry/lattice.hpp"
 
 /// The only place where the sign of a determinant is decided. Every function is exact for keys whose
@@ -28,6 +30,26 @@ int compare_distances(Key2 a, Key2 b, Key2 c, Key2 d);
 /// Sign of the cosine of the angle at `apex` between a and b: +1 acute, 0 right, -1 obtuse. Swapping a and b
 /// keeps it.
 int angle_sign(Key2 a, Key2 apex, Key2 b);
+
+/// Whether the segments a b and c d cross in a point that is an end of neither. Any order, any direction.
+bool do_cross(Key2 a, Key2 b, Key2 c, Key2 d);
+
+/// The lattice point nearest to where two segments that `do_cross` meet; of two at half a step, the greater.
+struct RoundedCrossing {
+    Key2 key;
+    bool is_exact;  ///< whether they meet in that very point
+};
+RoundedCrossing round_crossing(Key2 a, Key2 b, Key2 c, Key2 d);
+
+/// How a segment passes the square of a lattice point: all that rounds to it, the half-open square around it
+/// whose sides are one step long.
+enum class SquarePass : std::uint8_t {
+    Apart,    ///< not even its boundary
+    Corner,   ///< touches a corner that belongs to another square
+    Through,  ///< through the square, not through the lattice point
+    Center    ///< through the lattice point, or ends there
+};
+SquarePass pass_square(Key2 a, Key2 b, Key2 c);
 
 /// Lexicographic order of keys, x before y.
 inline bool precedes(Key2 a, Key2 b) { return a.x < b.x || (a.x == b.x && a.y < b.y); }

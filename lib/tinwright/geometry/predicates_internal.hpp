@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "tinwright/geometry/lattice.hpp"
+#include "tinwright/geometry/predicates.hpp"
 
 /// The tiers behind the predicates, opened to their tests and to the loop of the Delaunay construction. A
 /// tier that answers is right; one that cannot tell says `kUnsure`, and the next is asked [shewchuk1997].
@@ -122,6 +123,18 @@ inline int incircle_double(Key2 a, Key2 b, Key2 c, Key2 d) {
 int incircle_int128(Key2 a, Key2 b, Key2 c, Key2 d);
 /// 256-bit integers; always answers.
 int incircle_int256(Key2 a, Key2 b, Key2 c, Key2 d);
+
+/// Whether the line through a in direction `ab` certainly passes the square of c (see `pass_square`) by: its
+/// distance from c, times the length of `ab`, exceeds what reaches the square's corners and the error.
+[[gnu::always_inline]] inline bool is_apart_double(Key2 a, Direction ab, Key2 c) {
+    const double left = ab.x * (c.y - a.y);
+    const double right = ab.y * (c.x - a.x);
+    const double reach = 0.5 * (std::abs(ab.x) + std::abs(ab.y));
+    // As for `turn`, and one unit more for the sum on the right.
+    return std::abs(left - right) > reach + 5 * kUnit * (std::abs(left) + std::abs(right) + reach);
+}
+/// 128-bit integers; always answers, where c is in the box of a and b.
+SquarePass pass_square_int128(Key2 a, Key2 b, Key2 c);
 
 /// 128-bit integers; always answer.
 int compare_distances_int128(Key2 a, Key2 b, Key2 c, Key2 d);
