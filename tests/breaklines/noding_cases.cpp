@@ -5,7 +5,7 @@
 #include <bit>
 #include <cstdint>
 #include <iterator>
-#include <set>
+#include <map>
 #include <utility>
 
 #include <tbb/task_arena.h>
@@ -174,7 +174,7 @@ std::string find_fault(const NodingCase& input, const NodedLines& noded) {
             return "keys are not distinct and in curve order";
         }
     }
-    std::set<NodedPiece> pieces;
+    std::map<std::array<std::uint32_t, 3>, std::uint32_t> runs;
     const std::vector<KeyChain> chains = chains_of(noded);
     for (std::uint32_t line = 0; line < input.lines.size(); ++line) {
         if (!follows(chains[line], keys_along(input.lines[line], input.lattice))) {
@@ -182,10 +182,15 @@ std::string find_fault(const NodingCase& input, const NodedLines& noded) {
         }
         for (std::uint32_t i = noded.chain_start[line]; i + 1 < noded.chain_start[line + 1]; ++i) {
             const auto [a, b] = std::minmax(noded.chains[i], noded.chains[i + 1]);
-            pieces.insert({a, b, line});
+            ++runs[{a, b, line}];
         }
     }
-    if (!std::equal(pieces.begin(), pieces.end(), noded.pieces.begin(), noded.pieces.end())) {
+    const bool are_equal = std::equal(
+        runs.begin(), runs.end(), noded.pieces.begin(), noded.pieces.end(),
+        [](const auto& run, const NodedPiece& piece) {
+            return run.first == std::array{piece.a, piece.b, piece.line} && run.second == piece.runs;
+        });
+    if (!are_equal) {
         return "pieces are not the parts of the chains";
     }
     std::vector<KeySegment> segments;

@@ -238,7 +238,7 @@ class StretchSearch {
                    pieces_[last].b == pieces_[first].b) {
                 ++last;
             }
-            if (last - first > 1) {
+            if (last - first > 1 || pieces_[first].runs > 1) {
                 edges.push_back({first, last});
             }
             first = last;
@@ -279,10 +279,8 @@ class StretchSearch {
             parent[std::max(p, q)] = std::min(p, q);
         }
         const NodedPiece& first = pieces_[edges.front().first];
-        std::uint32_t other = first.line;
-        for (std::size_t i = edges.front().first; i < edges.front().last && other == first.line; ++i) {
-            other = pieces_[i].line;
-        }
+        const bool has_other = edges.front().last - edges.front().first > 1;
+        const std::uint32_t other = has_other ? pieces_[edges.front().first + 1].line : first.line;
         for (std::size_t place = 0; place < vertices.size(); ++place) {
             if (parent[place] == place) {
                 stretches.push_back({vertices[place], first.line, other});

@@ -37,8 +37,8 @@ struct SharedStretch {
     std::uint32_t line_b;
 };
 
-/// Edges along which the same lines run, joined to stretches. `pieces`: ascending, repeated where a line
-/// repeats an edge. Of more than two lines the first two are named. O(n log n).
+/// Edges along which the same lines run, or one repeatedly, joined to stretches. `pieces`: ascending. Of more
+/// than two lines the first two are named. O(n log n).
 std::vector<SharedStretch> find_shared_stretches(std::span<const NodedPiece> pieces);
 
 }  // namespace tinwright

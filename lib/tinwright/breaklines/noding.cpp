@@ -165,7 +165,7 @@ class Noding {
             {first->line_a, first->line_b});
     }
 
-    /// Pieces, those that a line repeats too, by first vertex in buckets.
+    /// Sorted by first vertex in buckets, each of which is short.
     void make_pieces() {
         const auto for_each_piece = [&](const auto& visit) {
             for (std::uint32_t line = 0; line < lines_.size(); ++line) {
@@ -190,6 +190,21 @@ class Noding {
             std::sort(out_.pieces.begin() + first, out_.pieces.begin() + next[v]);
             first = next[v];
         }
+        count_runs();
+    }
+
+    /// Repeated pieces become one each.
+    void count_runs() {
+        std::size_t count = 0;
+        for (const NodedPiece& piece : out_.pieces) {
+            NodedPiece* const last = count > 0 ? &out_.pieces[count - 1] : nullptr;
+            if (last != nullptr && last->a == piece.a && last->b == piece.b && last->line == piece.line) {
+                ++last->runs;
+            } else {
+                out_.pieces[count++] = piece;
+            }
+        }
+        out_.pieces.resize(count);
     }
 
     void add_overlaps() {
@@ -200,7 +215,6 @@ class Noding {
         for (const SharedStretch& stretch : find_shared_stretches(of_first_lines)) {
             add_at(Kind::Overlap, Action::Merged, stretch.vertex, stretch.line_a, stretch.line_b);
         }
-        out_.pieces.erase(std::unique(out_.pieces.begin(), out_.pieces.end()), out_.pieces.end());
     }
 
     void add_conflicts_of_lines(const SnappedLines& snapped) {
