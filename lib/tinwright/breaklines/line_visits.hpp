@@ -71,8 +71,8 @@ struct LineVisit {
     bool is_own;
 };
 
-/// The visits at each vertex, in the order of lines and along them. A repeated point is a visit of its own
-/// without neighbours.
+/// The visits at each vertex, in the order of lines and along them. A repeated point, and the last point of a
+/// closed line, is a visit of its own without neighbours.
 struct LineVisits {
     std::vector<LineVisit> all;
     std::vector<std::uint32_t> start;  ///< one entry more than vertices

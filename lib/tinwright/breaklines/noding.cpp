@@ -276,8 +276,8 @@ class Noding {
         };
         std::stable_sort(conflicts_.begin(), conflicts_.end(),
                          [](const PlacedConflict& p, const PlacedConflict& q) {
-                             return std::tuple(p.vertex, p.kind, p.line_a, p.line_b) <
-                                    std::tuple(q.vertex, q.kind, q.line_a, q.line_b);
+                             return std::tuple(p.vertex, p.kind, p.action, p.line_a, p.line_b) <
+                                    std::tuple(q.vertex, q.kind, q.action, q.line_a, q.line_b);
                          });
         conflicts_.erase(std::unique(conflicts_.begin(), conflicts_.end(),
                                      [&](const PlacedConflict& p, const PlacedConflict& q) {
