@@ -44,15 +44,19 @@ double round_to_power_of_ten(double value) {
     return value > 0 ? std::pow(10.0, std::floor(std::log10(value))) : 0.0;
 }
 
-LineTraits complete(LineTraits traits, const Breakline& line) {
-    if (line.role != LineRole::Breakline) {
-        traits.is_ring = true;
-        traits.polygon = line.polygon;
-        traits.is_draped =
-            traits.is_draped || std::all_of(line.points.begin(), line.points.end(),
-                                            [](const Point3& point) { return std::isnan(point.z); });
+/// Chains of lines left out are empty.
+void renumber_chains(NodedLines& noded, const std::vector<std::uint32_t>& number, std::size_t lines) {
+    if (noded.chain_start.empty()) {
+        return;
     }
-    return traits;
+    std::vector<std::uint32_t> start(lines + 1, 0);
+    for (std::size_t i = 0; i < number.size(); ++i) {
+        start[number[i] + 1] = noded.chain_start[i + 1] - noded.chain_start[i];
+    }
+    for (std::size_t i = 0; i < lines; ++i) {
+        start[i + 1] += start[i];
+    }
+    noded.chain_start = std::move(start);
 }
 
 }  // namespace
@@ -70,6 +74,23 @@ Lattice shared_lattice(std::span<const Breakline> lines, std::span<const Point3>
     return found.lattice.refined(found.lattice.refinement_room(std::max(largest.x, largest.y)));
 }
 
+std::vector<LineTraits> complete_traits(std::span<const Breakline> lines, std::span<const LineTraits> given) {
+    std::vector<LineTraits> traits(given.begin(), given.end());
+    traits.resize(lines.size());
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        if (lines[i].role == LineRole::Breakline) {
+            continue;
+        }
+        traits[i].is_ring = true;
+        traits[i].polygon = lines[i].polygon;
+        if (given.empty()) {
+            traits[i].is_draped = std::all_of(lines[i].points.begin(), lines[i].points.end(),
+                                              [](const Point3& point) { return std::isnan(point.z); });
+        }
+    }
+    return traits;
+}
+
 KeyedLines key_lines(std::span<const Breakline> lines, const Lattice& lattice,
                      const LineCheckOptions& options, CrossingPolicy crossing_z) {
     check_distance("the crossing tolerance", options.crossing_tolerance);
@@ -83,9 +104,8 @@ KeyedLines key_lines(std::span<const Breakline> lines, const Lattice& lattice,
     keyed.lattice = lattice;
     keyed.snap = snap / keyed.lattice.quantum();
     keyed.dangling = dangling / keyed.lattice.quantum();
+    keyed.traits = complete_traits(lines, options.traits);
     for (std::size_t i = 0; i < lines.size(); ++i) {
-        keyed.traits.push_back(
-            complete(i < options.traits.size() ? options.traits[i] : LineTraits{}, lines[i]));
         const CleanOptions clean{keyed.snap, keyed.traits[i].is_ring, crossing_z};
         keyed.faults.emplace_back();
         keyed.lines.push_back(clean_line(lines[i].points, keyed.lattice, clean, keyed.faults.back()));
@@ -114,6 +134,7 @@ NodedLines node_keyed_lines(const KeyedLines& keyed, std::span<const Breakline> 
     for (NodedPiece& piece : noded.pieces) {
         piece.line = number[piece.line];
     }
+    renumber_chains(noded, number, keyed.lines.size());
     for (LineConflict& conflict : noded.conflicts) {
         for (std::uint32_t* const line : {&conflict.line_a, &conflict.line_b}) {
             *line = *line == LineConflict::kNone ? *line : number[*line];

@@ -27,6 +27,9 @@ struct KeyedLines {
 /// O(n).
 Lattice shared_lattice(std::span<const Breakline> lines, std::span<const Point3> samples);
 
+/// What is known of each line: what the caller says, and what follows from the roles.
+std::vector<LineTraits> complete_traits(std::span<const Breakline> lines, std::span<const LineTraits> given);
+
 /// `lattice`: one that all points of the lines are on. Throws UsageError for options out of range. O(n).
 KeyedLines key_lines(std::span<const Breakline> lines, const Lattice& lattice,
                      const LineCheckOptions& options, CrossingPolicy crossing_z = CrossingPolicy::Mean);

@@ -102,13 +102,12 @@ void LineAudit::list_noded() {
                                 .crossing_tolerance = options_.crossing_tolerance,
                                 .progress = {}};
     noded_ = node_keyed_lines(keyed_, lines_, options);
-    const SharedStretches shared(keyed_, lines_, noded_);
     for (const LineConflict& conflict : noded_.conflicts) {
-        const bool is_overlap = conflict.kind == Kind::Overlap || conflict.kind == Kind::Duplicate;
-        if (!is_overlap || !shared.are_harmless(conflict.line_a, conflict.line_b)) {
+        if (conflict.kind != Kind::Overlap && conflict.kind != Kind::Duplicate) {
             found_.push_back({conflict, keyed_.lattice.key(conflict.location)});
         }
     }
+    add(find_overlaps(keyed_, lines_, noded_));
 }
 
 void LineAudit::list_near() {

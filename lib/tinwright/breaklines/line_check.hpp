@@ -30,9 +30,10 @@ struct LineCheckOptions {
     /// An end is dangling when prolonging its line by this (CRS units, >= 0) would reach another line. Empty:
     /// fifty times the default of `snap`.
     std::optional<double> dangling;
-    double crossing_tolerance = 0;   ///< elevations that differ by at most this (unit of z, >= 0) agree
-    double line_tolerance = 0;       ///< samples closer to a line than this (CRS units, >= 0) are listed
-    std::vector<LineTraits> traits;  ///< one a line, or empty: default ones
+    double crossing_tolerance = 0;  ///< elevations that differ by at most this (unit of z, >= 0) agree
+    double line_tolerance = 0;      ///< samples closer to a line than this (CRS units, >= 0) are listed
+    /// One a line; or empty: default ones, boundaries and holes without any z to be draped.
+    std::vector<LineTraits> traits;
     Progress progress;
 };
 

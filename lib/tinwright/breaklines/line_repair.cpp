@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "tinwright/breaklines/keyed_lines.hpp"
-#include "tinwright/breaklines/line_chains.hpp"
 #include "tinwright/breaklines/line_segments.hpp"
 #include "tinwright/breaklines/point_joining.hpp"
 #include "tinwright/breaklines/segment_distance.hpp"
@@ -117,9 +116,9 @@ class LineRepairer {
     LineRepairer(std::span<const Breakline> lines, std::span<const Point3> samples,
                  const LineRepairOptions& options)
         : lines_(lines), samples_(samples), options_(options), lattice_(shared_lattice(lines, samples)) {
+        const std::vector<LineTraits> traits = complete_traits(lines, options.check.traits);
         for (std::uint32_t i = 0; i < lines.size(); ++i) {
-            const auto& traits = options.check.traits;
-            work_.push_back({lines[i], i < traits.size() ? traits[i] : LineTraits{}, i});
+            work_.push_back({lines[i], traits[i], i});
         }
     }
 
@@ -261,12 +260,17 @@ void LineRepairer::replace_work(const KeyedLines& keyed) {
     const NodedLines noded = node_keyed_lines(keyed, lines_at_work(),
                                               {.crossing_z = options_.crossing_z,
                                                .crossing_tolerance = options_.check.crossing_tolerance,
+                                               .keep_chains = true,
                                                .progress = {}});
     std::vector<WorkLine> old = std::move(work_);
     for (std::size_t i = 0; i < old.size(); ++i) {
         old[i].traits = keyed.traits[i];
     }
-    const std::vector<Chain> chains = find_line_chains(keyed.lines, noded);
+    std::vector<Chain> chains;
+    for (std::size_t i = 0; i < old.size(); ++i) {
+        chains.emplace_back(noded.chains.begin() + noded.chain_start[i],
+                            noded.chains.begin() + noded.chain_start[i + 1]);
+    }
     const std::vector<std::vector<Chain>> parts = StretchKeeper(old, chains).run();
     work_.clear();
     for (std::size_t i = 0; i < old.size(); ++i) {

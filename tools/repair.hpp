@@ -1,0 +1,44 @@
+#ifndef TINWRIGHT_TOOLS_REPAIR_HPP
+#define TINWRIGHT_TOOLS_REPAIR_HPP
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "tinwright/breaklines/line_repair.hpp"
+#include "tinwright/io/read_lines.hpp"
+#include "tinwright/io/read_samples.hpp"
+#include "tinwright/io/source.hpp"
+
+namespace tinwright::tools {
+
+/// Where repaired lines go: one GeoPackage a file that lines were read from, one layer a source.
+struct RepairPlan {
+    struct File {
+        std::string target;
+        std::vector<std::size_t> slices;  ///< of the lines that were read
+        std::vector<std::string> layers;  ///< name of each one's layer
+    };
+    std::vector<File> files;
+};
+
+/// `folder/<name>.gpkg` for each file that lines were read from, numbered where names are the same. Makes the
+/// folder if it is not there. Throws UsageError when a target is one of `sources`, IoError when one exists
+/// and may not be replaced, or cannot be written.
+RepairPlan plan_repair(const io::Lines& lines, const std::string& folder, bool overwrite,
+                       std::span<const io::Source> sources);
+
+/// Puts lines right, draping what has no z on the samples if there are three or more not on one line.
+/// `options`: without `drape`.
+LineRepair repair_lines_on_samples(const io::Lines& lines, const io::Samples& samples,
+                                   LineRepairOptions options);
+
+/// Writes the repaired lines as planned; `sources`: of the lines, as `read_lines` got them. Returns a line
+/// for the report a layer: "clean/roads.gpkg: layer roads, 12 features, 1 left out".
+std::vector<std::string> write_repair(const LineRepair& repair, const io::Lines& lines,
+                                      std::span<const io::LineSource> sources, const RepairPlan& plan,
+                                      const io::Crs& crs, bool overwrite);
+
+}  // namespace tinwright::tools
+
+#endif
