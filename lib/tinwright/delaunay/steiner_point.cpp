@@ -162,6 +162,20 @@ std::optional<VertexId> SteinerInserter::insert(Key2 key, double z, VertexId nea
     return v;
 }
 
+std::optional<VertexId> SteinerInserter::insert(Key2 key, VertexId near) {
+    const HalfEdgeId h = locate(key, near);
+    if (tin_.mesh.is_ghost(face_of(h))) {
+        return std::nullopt;
+    }
+    const auto& [a, b, c] = tin_.mesh.face(face_of(h)).vertex;
+    const double area_a = doubled_area(tin_.key(b), tin_.key(c), key);
+    const double area_b = doubled_area(tin_.key(c), tin_.key(a), key);
+    const double area_c = doubled_area(tin_.key(a), tin_.key(b), key);
+    const double z = (area_a * tin_.z[a.value] + area_b * tin_.z[b.value] + area_c * tin_.z[c.value]) /
+                     (area_a + area_b + area_c);
+    return insert(key, z, a);
+}
+
 VertexId SteinerInserter::add_vertex(Key2 key, double z, std::uint32_t line_edge) {
     tin_.keys.push_back(key);
     tin_.z.push_back(z);

@@ -41,6 +41,8 @@ class SteinerInserter {
     /// Puts a free vertex with elevation z at a lattice point strictly inside the hull; empty when the point
     /// is a vertex already or on a constrained edge. The walk to it starts at `near`.
     std::optional<VertexId> insert(Key2 key, double z, VertexId near);
+    /// The same with the elevation of the face that the point lies in.
+    std::optional<VertexId> insert(Key2 key, VertexId near);
 
     /// Half-edges of the constrained edges of faces that the last insertion made or changed, those of the
     /// vertex itself included, in no special order; an edge may be there more than once, and others with it.

@@ -1,0 +1,139 @@
+#include "tinwright/delaunay/chord_ends.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+namespace tinwright {
+
+namespace {
+
+double dot(Offset a, Offset b) { return a.x * b.x + a.y * b.y; }
+
+// A chord seen from the centre of its disk.
+struct CenteredChord {
+    LineInDisks* edge;
+    Chord* chord;
+    Offset begin;
+    Offset end;
+    Offset normal;      // of length 1
+    double distance;    // of the line from the centre, along the normal
+    double crease = 0;  // how steeply power grows to either side
+
+    [[nodiscard]] double height(Offset place) const { return std::abs(dot(normal, place) - distance); }
+};
+
+// The chords within one disk.
+class ChordsOfDisk {
+  public:
+    ChordsOfDisk(const BlockingDisk& disk, Key2 vertex)
+        : disk_(disk), center_{vertex.x + disk.center.x, vertex.y + disk.center.y} {}
+
+    void add(LineInDisks& edge, Chord& chord, Key2 p, Key2 q) {
+        const Offset start{p.x - center_.x, p.y - center_.y};
+        const Offset way{q.x - p.x, q.y - p.y};
+        const auto at = [&](double share) {
+            return Offset{start.x + share * way.x, start.y + share * way.y};
+        };
+        const Offset normal{-way.y / edge.length, way.x / edge.length};
+        chords_.push_back({&edge, &chord, at(chord.from), at(chord.to), normal, dot(normal, start)});
+    }
+
+    void move_ends() {
+        if (chords_.size() < 2 || chords_.size() > kMost) {
+            return;
+        }
+        for (CenteredChord& chord : chords_) {
+            crease(chord);
+        }
+        const Offset to_vertex{-disk_.center.x, -disk_.center.y};
+        const double at_vertex = power(to_vertex);
+        const double at_other = disk_.is_full ? power(disk_.center) : at_vertex;
+        const double square = disk_.radius * disk_.radius;
+        // The vertices on the circle stay where they are: a linear function makes up for it.
+        const auto change = [&](Offset place) {
+            const double along = dot(place, to_vertex) / square;  // 1 at the vertex, -1 opposite
+            return power(place) - 0.5 * ((1 + along) * at_vertex + (1 - along) * at_other);
+        };
+        for (const CenteredChord& moved : chords_) {
+            Chord& chord = *moved.chord;
+            const double length = (chord.to - chord.from) * moved.edge->length;
+            const auto step = [&](Offset end) {
+                const double way = change(end) / length;  // power grows with the whole chord's length
+                return std::clamp(way, -kShare * length, kShare * length) / moved.edge->length;
+            };
+            if (chord.from > 0) {
+                chord.from -= step(moved.begin);
+            }
+            if (chord.to < 1) {
+                chord.to += step(moved.end);
+            }
+        }
+    }
+
+  private:
+    static constexpr std::size_t kMost = 1000;
+    static constexpr double kShare = 0.05;  // of a chord: no end moves farther than that
+
+    // A place that is rounded moves by up to 3 steps, which changes its power by up to 6 radii; 4 places
+    // decide together whether an edge is Delaunay.
+    void crease(CenteredChord& chord) const {
+        constexpr double kRounding = 16;
+        double least = 0;
+        const auto look_at = [&](Offset place) {
+            const double height = chord.height(place);
+            if (height > 1 && (least == 0 || height < least)) {
+                least = height;
+            }
+        };
+        for (const CenteredChord& other : chords_) {
+            look_at(other.begin);
+            look_at(other.end);
+        }
+        chord.crease = least > 0 ? kRounding * disk_.radius / least : 0;
+    }
+
+    [[nodiscard]] double power(Offset place) const {
+        double sum = 0;
+        for (const CenteredChord& chord : chords_) {
+            sum += chord.crease * chord.height(place);
+        }
+        return sum;
+    }
+
+    const BlockingDisk& disk_;
+    Key2 center_;
+    std::vector<CenteredChord> chords_;
+};
+
+}  // namespace
+
+void move_chord_ends(const BlockingDisks& disks, std::span<const Key2> keys, std::span<LineInDisks> edges) {
+    struct Entry {
+        std::uint32_t disk;
+        std::uint32_t edge;
+        std::uint32_t chord;
+        auto operator<=>(const Entry&) const = default;
+    };
+    std::vector<Entry> entries;
+    for (std::uint32_t k = 0; k < edges.size(); ++k) {
+        for (std::uint32_t i = 0; i < edges[k].chords.size(); ++i) {
+            entries.push_back({edges[k].chords[i].disk, k, i});
+        }
+    }
+    std::sort(entries.begin(), entries.end());
+    for (auto first = entries.begin(); first != entries.end();) {
+        const BlockingDisk& disk = disks.disks()[first->disk];
+        ChordsOfDisk chords(disk, keys[disk.vertex.value]);
+        auto entry = first;
+        for (; entry != entries.end() && entry->disk == first->disk; ++entry) {
+            LineInDisks& edge = edges[entry->edge];
+            chords.add(edge, edge.chords[entry->chord], keys[edge.p.value], keys[edge.q.value]);
+        }
+        chords.move_ends();
+        first = entry;
+    }
+}
+
+}  // namespace tinwright
