@@ -8,23 +8,30 @@
 
 namespace tinwright {
 
-/// That the points at one location were moved to where another line is.
+/// That the points at one location were moved to another location, or onto another line.
 struct NearMiss {
-    std::uint32_t point;   ///< one of them
-    std::uint32_t line_a;  ///< the lines with the smallest numbers at both, line_a <= line_b
-    std::uint32_t line_b;
+    std::uint32_t point;  ///< one of them
+    std::uint32_t
+        line_a;  ///< the first line there and the first other one where it went, if there is another
+    std::uint32_t line_b;  ///< line_a <= line_b
 };
 
 struct SnappedLines {
     std::vector<NearMiss> misses;
-    /// Points from which a segment starts that points were moved onto: it is to be led through them.
+    /// Points from which segments start that points were moved onto: they are to be led through them.
     std::vector<std::uint32_t> led_from;
 };
 
-/// Moves points that are nearer than `distance` (lattice steps, > 0) to a point of another line, or of their
-/// own after the line has been farther away, to one location; what is near no such point, but to a line, to
-/// the lattice point nearest to the nearest place there. Each point moves once, by less than `distance` and a
-/// step. Decided in curve order of the locations, hence whatever the order and directions of the lines.
+/// Moves points that are nearer than `distance` (lattice steps, > 0) to other points, or else to another
+/// line.
+///
+/// First each location, in curve order, goes to the nearest one before it that stayed, if one is near. Points
+/// of one line count as near each other only if the line has been farther away in between, so that dense
+/// points along it stay. Then each location that neither moved nor took in another goes to the lattice point
+/// nearest to the nearest place of a line that it is not on, unless it is on another line anyway; the ends of
+/// such a segment stay from then on. Each point moves once, by less than `distance` and a step.
+/// Independent of the order and the directions of the lines. O(n log n) for distances of the size of the gaps
+/// between lines.
 SnappedLines snap_lines(LinePoints& points, double distance);
 
 }  // namespace tinwright
