@@ -109,7 +109,7 @@ class AreaWalk {
         if (!mesh_.is_constrained(h)) {
             return nullptr;
         }
-        const auto [a, b] = std::minmax(mesh_.origin(h), mesh_.destination(h));
+        const auto [a, b] = std::minmax({mesh_.origin(h), mesh_.destination(h)});
         const auto found =
             std::lower_bound(sides_.begin(), sides_.end(), std::pair(a, b),
                              [](const Side& side, const auto& e) { return std::pair(side.a, side.b) < e; });
