@@ -193,6 +193,10 @@ std::string find_fault(const NodingCase& input, const NodedLines& noded) {
     if (!are_equal) {
         return "pieces are not the parts of the chains";
     }
+    return find_improper_edge(noded);
+}
+
+std::string find_improper_edge(const NodedLines& noded) {
     std::vector<KeySegment> segments;
     for (const Edge& edge : edges_of(noded)) {
         segments.push_back({noded.keys[edge[0]], noded.keys[edge[1]]});

@@ -40,6 +40,8 @@ ExpectedChains expected_chains(const NodingCase& input);
 std::vector<tinwright::Key2> sorted_keys(const tinwright::NodedLines& noded);
 std::vector<KeyChain> chains_of(const tinwright::NodedLines& noded);
 
+/// Which edges meet other than at their ends, or nothing.
+std::string find_improper_edge(const tinwright::NodedLines& noded);
 /// Checks keys, chains against pieces, that pieces meet at ends only and stay by their lines; says what is
 /// wrong, or nothing.
 std::string find_fault(const NodingCase& input, const tinwright::NodedLines& noded);

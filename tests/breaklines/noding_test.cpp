@@ -52,7 +52,7 @@ TEST_SUITE("breaklines/noding") {
             for (int seed = 0; seed < cases(6); ++seed) {
                 CAPTURE(seed);
                 Random random(static_cast<std::uint64_t>(seed));
-                NodingCase input = make_case(family, random, 300);
+                NodingCase input = make_case(family, random, 120);
                 const NodedLines once = node(input, 1);
                 const NodedLines parallel = node(input, 4);
                 CHECK(has_same_geometry(once, parallel));
@@ -72,7 +72,7 @@ TEST_SUITE("breaklines/noding") {
             for (int seed = 0; seed < cases(6); ++seed) {
                 CAPTURE(seed);
                 Random random(static_cast<std::uint64_t>(seed));
-                const NodingCase input = make_case(family, random, 300);
+                const NodingCase input = make_case(family, random, 120);
                 const NodedLines once = node(input);
                 const NodedLines again = node({lines_of_pieces(once, input.lattice), input.lattice});
                 CHECK(has_same_geometry(once, again));

@@ -272,7 +272,7 @@ class Noding {
     /// Conflicts of the same place are one, named after the smallest line numbers.
     void write_conflicts() {
         const auto names_each_line = [](Kind kind) {
-            return kind == Kind::ZeroLength || kind == Kind::Duplicate || kind == Kind::NearMiss;
+            return kind == Kind::ZeroLength || kind == Kind::Duplicate;
         };
         std::stable_sort(conflicts_.begin(), conflicts_.end(),
                          [](const PlacedConflict& p, const PlacedConflict& q) {

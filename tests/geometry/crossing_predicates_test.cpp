@@ -1,0 +1,147 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+
+#include <doctest/doctest.h>
+
+#include "tinwright/geometry/predicates.hpp"
+#include "tinwright/geometry/predicates_internal.hpp"
+
+#include "support/cases.hpp"
+#include "support/noding_oracle.hpp"
+#include "support/point_sets.hpp"
+
+using namespace tinwright;
+using namespace tinwright_tests;
+
+namespace {
+
+constexpr std::array kBits{1, 2, 3, 5, 10, 20, 30, 40, 45};
+
+Key2 random_key(Random& random, int bits) {
+    const double limit = std::ldexp(1.0, bits);
+    return {random.key(limit), random.key(limit)};
+}
+
+/// Near the line through two keys, at a random place between them.
+Key2 key_near(Random& random, Key2 a, Key2 b) {
+    const double part = random.real();
+    return {std::max(0.0, std::round(a.x + part * (b.x - a.x)) + static_cast<double>(random.integer(-1, 1))),
+            std::max(0.0, std::round(a.y + part * (b.y - a.y)) + static_cast<double>(random.integer(-1, 1)))};
+}
+
+/// Segments that cross at all angles, or at an angle as small as keys allow.
+std::array<Key2, 4> random_pair(Random& random, int bits) {
+    const Key2 a = random_key(random, bits);
+    const Key2 b = random_key(random, bits);
+    if (random.integer(0, 1) == 0) {
+        return {a, b, random_key(random, bits), random_key(random, bits)};
+    }
+    return {a, b, key_near(random, a, b), key_near(random, a, b)};
+}
+
+oracle::KeySegment segment(Key2 a, Key2 b) { return {a, b}; }
+
+SquarePass pass_by_oracle(Key2 a, Key2 b, Key2 c) {
+    if (oracle::is_on(c, {a, b})) {
+        return SquarePass::Center;
+    }
+    if (oracle::passes_square({a, b}, c)) {
+        return SquarePass::Through;
+    }
+    return oracle::is_within_half_step(c, {a, b}) ? SquarePass::Corner : SquarePass::Apart;
+}
+
+}  // namespace
+
+TEST_SUITE("geometry/predicates: crossings") {
+    TEST_CASE("segments cross exactly where rational arithmetic says, whatever their order and direction") {
+        for (const int bits : kBits) {
+            CAPTURE(bits);
+            for (int seed = 0; seed < cases(300); ++seed) {
+                CAPTURE(seed);
+                Random random(static_cast<std::uint64_t>(seed));
+                const auto [a, b, c, d] = random_pair(random, bits);
+                const std::optional<oracle::Crossing> expected =
+                    a == b || c == d ? std::nullopt : oracle::crossing(segment(a, b), segment(c, d));
+                REQUIRE(do_cross(a, b, c, d) == expected.has_value());
+                REQUIRE(do_cross(d, c, b, a) == expected.has_value());
+                if (expected) {
+                    for (const RoundedCrossing& crossing :
+                         {round_crossing(a, b, c, d), round_crossing(b, a, c, d), round_crossing(c, d, a, b),
+                          round_crossing(d, c, b, a)}) {
+                        CHECK(crossing.key == expected->key);
+                        CHECK(crossing.is_exact == expected->is_exact);
+                    }
+                }
+            }
+        }
+    }
+
+    TEST_CASE("a crossing halfway between lattice points goes to the greater one") {
+        const RoundedCrossing half = round_crossing({0, 0}, {1, 1}, {0, 1}, {1, 0});
+        CHECK(half.key == Key2{1, 1});
+        CHECK_FALSE(half.is_exact);
+        const RoundedCrossing exact = round_crossing({0, 0}, {2, 2}, {0, 2}, {2, 0});
+        CHECK(exact.key == Key2{1, 1});
+        CHECK(exact.is_exact);
+    }
+
+    TEST_CASE("a crossing near the ends of the key range is rounded exactly") {
+        const double end = kKeyLimit - 1;
+        for (int seed = 0; seed < cases(2000); ++seed) {
+            CAPTURE(seed);
+            Random random(static_cast<std::uint64_t>(seed));
+            const auto small = [&] { return static_cast<double>(random.integer(0, 3)); };
+            const Key2 a{small(), small()};
+            const Key2 b{end - small(), end - small()};
+            const Key2 c{small(), small()};
+            const Key2 d{end - small(), end - small()};
+            const std::optional<oracle::Crossing> expected = oracle::crossing({a, b}, {c, d});
+            REQUIRE(do_cross(a, b, c, d) == expected.has_value());
+            if (expected) {
+                const RoundedCrossing crossing = round_crossing(a, b, c, d);
+                CHECK(crossing.key == expected->key);
+                CHECK(crossing.is_exact == expected->is_exact);
+            }
+        }
+    }
+
+    TEST_CASE("a segment passes lattice squares as rational arithmetic says, in either direction") {
+        for (const int bits : kBits) {
+            CAPTURE(bits);
+            for (int seed = 0; seed < cases(300); ++seed) {
+                CAPTURE(seed);
+                Random random(static_cast<std::uint64_t>(seed));
+                const Key2 a = random_key(random, bits);
+                const Key2 b = random_key(random, bits);
+                const Key2 c = random.integer(0, 4) == 0 ? random_key(random, bits) : key_near(random, a, b);
+                if (a == b) {
+                    continue;
+                }
+                const SquarePass expected = pass_by_oracle(a, b, c);
+                CHECK(pass_square(a, b, c) == expected);
+                CHECK(pass_square(b, a, c) == expected);
+                if (internal::is_apart_double(a, internal::direction(b, a), c)) {
+                    CHECK(expected == SquarePass::Apart);
+                }
+            }
+        }
+    }
+
+    TEST_CASE("each point of a segment is in the square of one lattice point") {
+        // On a small lattice, every square against every segment: corners are met as often as not.
+        constexpr int kWide = 4;
+        for (int code = 0; code < kWide * kWide * kWide * kWide; ++code) {
+            const Key2 a{static_cast<double>(code % kWide), static_cast<double>(code / kWide % kWide)};
+            const Key2 b{static_cast<double>(code / (kWide * kWide) % kWide),
+                         static_cast<double>(code / (kWide * kWide * kWide))};
+            for (int place = 0; a != b && place < kWide * kWide; ++place) {
+                const Key2 c{static_cast<double>(place % kWide), static_cast<double>(place / kWide)};
+                CHECK(pass_square(a, b, c) == pass_by_oracle(a, b, c));
+            }
+        }
+    }
+}
