@@ -1,18 +1,15 @@
 #include "tinwright/delaunay/constrained_delaunay.hpp"
 
 #include <algorithm>
-#include <string>
 #include <utility>
 #include <vector>
 
 #include <doctest/doctest.h>
 
 #include "tinwright/geometry/error.hpp"
-#include "tinwright/geometry/predicates.hpp"
-#include "tinwright/mesh/mesh_check.hpp"
-#include "tinwright/mesh/tin_check.hpp"
 
 #include "support/cases.hpp"
+#include "support/constrained_oracle.hpp"
 #include "support/oracles.hpp"
 #include "support/point_sets.hpp"
 #include "support/tins.hpp"
@@ -21,34 +18,6 @@ using namespace tinwright;
 using namespace tinwright_tests;
 
 namespace {
-
-// What keeps the TIN from being the constrained Delaunay triangulation of its vertices and constrained edges;
-// empty when nothing does. An edge is looked at by itself, which is enough [lee1986].
-std::string defect(const Tin& tin) {
-    const MeshCheckReport connectivity = check_mesh(tin.mesh);
-    if (!connectivity.is_clean()) {
-        return connectivity.violations[0].text;
-    }
-    const TinCheckReport geometry = check_tin(tin);
-    if (!geometry.is_clean()) {
-        return geometry.violations[0].text;
-    }
-    for (std::uint32_t f = 0; f < tin.mesh.slot_count(); ++f) {
-        for (unsigned corner = 0; corner < 3; ++corner) {
-            const HalfEdgeId h = half_edge({f}, corner);
-            const HalfEdgeId t = tin.mesh.twin(h);
-            if (tin.mesh.is_ghost({f}) || tin.mesh.is_ghost(face_of(t)) || tin.mesh.is_constrained(h)) {
-                continue;
-            }
-            if (incircle_perturbed(tin.key(tin.mesh.origin(h)), tin.key(tin.mesh.destination(h)),
-                                   tin.key(tin.mesh.origin(previous(h))),
-                                   tin.key(tin.mesh.origin(previous(t)))) > 0) {
-                return "an edge is not locally Delaunay";
-            }
-        }
-    }
-    return {};
-}
 
 bool cross(Key2 a, Key2 b, Key2 c, Key2 d) {
     return oracle::orient2d(a, b, c) * oracle::orient2d(a, b, d) < 0 &&
@@ -111,7 +80,7 @@ TEST_SUITE("delaunay/constrained_delaunay") {
                 Tin tin = delaunay_tin(family.make(random, static_cast<std::size_t>(random.integer(4, 120))));
                 const std::vector<Segment> segments = random_segments(random, tin, 40);
                 const std::vector<SegmentEdge> edges = insert_segments(tin.mesh, tin.keys, segments);
-                REQUIRE(defect(tin) == "");
+                REQUIRE(constrained_delaunay_defect(tin) == "");
                 REQUIRE(are_chains(tin, segments, edges));
             }
         }
