@@ -29,7 +29,8 @@ LineSet make_case(const LineFamily& family, Random& random, std::size_t size) {
     std::array<double, 4> box = {1e300, 1e300, -1e300, -1e300};
     for (const Breakline& line : set.lines) {
         for (const Point3& p : line.points) {
-            box = {std::min(box[0], p.x), std::min(box[1], p.y), std::max(box[2], p.x), std::max(box[3], p.y)};
+            box = {std::min(box[0], p.x), std::min(box[1], p.y), std::max(box[2], p.x),
+                   std::max(box[3], p.y)};
         }
     }
     const auto count = random.integer(3, 40);
@@ -114,28 +115,31 @@ double area_inside(const std::vector<Breakline>& lines) {
 TEST_SUITE("optimal/triangulate_lines") {
     TEST_CASE("every segment of every line is a chain of edges of a constrained Delaunay triangulation") {
         for (const LineFamily& family : line_families()) {
-            CAPTURE(family.name);
+            CAPTURE(std::string(family.name));
             for (int seed = 1; seed <= cases(25); ++seed) {
                 CAPTURE(seed);
                 Random random(static_cast<std::uint64_t>(seed));
-                const LineSet set = make_case(family, random, static_cast<std::size_t>(random.integer(1, 60)));
+                const LineSet set =
+                    make_case(family, random, static_cast<std::size_t>(random.integer(1, 60)));
                 if (is_degenerate(set)) {
                     continue;
                 }
                 const Triangulated made = triangulate(set.samples, set.lines, tolerant());
                 REQUIRE(constrained_delaunay_defect(made.tin) == "");
-                REQUIRE(chain_defect(made.tin, set.lines, made.tin.lattice.refinement() == 0 ? 0 : 0.5) == "");
+                REQUIRE(chain_defect(made.tin, set.lines, made.tin.lattice.refinement() == 0 ? 0 : 0.5) ==
+                        "");
             }
         }
     }
 
     TEST_CASE("the conforming triangulation is Delaunay and all edges of lines have empty disks") {
         for (const LineFamily& family : line_families()) {
-            CAPTURE(family.name);
+            CAPTURE(std::string(family.name));
             for (int seed = 1; seed <= cases(8); ++seed) {
                 CAPTURE(seed);
                 Random random(static_cast<std::uint64_t>(seed));
-                const LineSet set = make_case(family, random, static_cast<std::size_t>(random.integer(1, 25)));
+                const LineSet set =
+                    make_case(family, random, static_cast<std::size_t>(random.integer(1, 25)));
                 if (is_degenerate(set)) {
                     continue;
                 }
@@ -145,6 +149,9 @@ TEST_SUITE("optimal/triangulate_lines") {
                     options.conforming = ConformingOptions{.method = method};
                     const Triangulated made = triangulate(set.samples, set.lines, options);
                     REQUIRE(constrained_delaunay_defect(made.tin) == "");
+                    CAPTURE(made.report.conforming->steiner_vertices);
+                    CAPTURE(made.report.conforming->open_edges);
+                    CAPTURE(made.tin.vertex_count());
                     REQUIRE(made.report.is_conforming);
                     REQUIRE(empty_disk_defect(made.tin) == "");
                     REQUIRE(chain_defect(made.tin, set.lines, 1) == "");
@@ -155,7 +162,7 @@ TEST_SUITE("optimal/triangulate_lines") {
 
     TEST_CASE("the result depends neither on the order nor on the directions of lines and samples") {
         for (const LineFamily& family : line_families()) {
-            CAPTURE(family.name);
+            CAPTURE(std::string(family.name));
             for (int seed = 1; seed <= cases(8); ++seed) {
                 CAPTURE(seed);
                 Random random(static_cast<std::uint64_t>(seed));
@@ -191,7 +198,8 @@ TEST_SUITE("optimal/triangulate_lines") {
                                rectangle(4, 4, 6, 6, LineRole::Hole, 4)}) == doctest::Approx(68));
         }
         SUBCASE("boundaries that overlap or share an edge are united") {
-            CHECK(area_inside({outer, rectangle(5, 5, 10, 10, LineRole::Boundary, 1)}) == doctest::Approx(73));
+            CHECK(area_inside({outer, rectangle(5, 5, 10, 10, LineRole::Boundary, 1)}) ==
+                  doctest::Approx(73));
             CHECK(area_inside({rectangle(0, 0, 5, 10, LineRole::Boundary, 0),
                                rectangle(5, 0, 10, 10, LineRole::Boundary, 1)}) == doctest::Approx(100));
         }
@@ -258,12 +266,13 @@ TEST_SUITE("optimal/triangulate_lines") {
         CHECK(z_with(DuplicatePolicy::Max) == 4);
         CHECK(z_with(DuplicatePolicy::Mean) == 2.5);
         options.duplicates.policy = DuplicatePolicy::Error;
-        CHECK_THROWS_WITH_AS(triangulate(samples, lines, options),
-                             "1 sample lies on a line that has another elevation there, at (5, 5): z 1 of the "
-                             "sample, 4 of the line; say which to take with --duplicates "
-                             "first|last|min|max|mean|median, or allow for the difference with "
-                             "--duplicate-tolerance",
-                             BreaklineError);
+        CHECK_THROWS_WITH_AS(
+            triangulate(samples, lines, options),
+            "1 sample lies on a line that has another elevation there, at (5, 5): z 1 of the "
+            "sample, 4 of the line; say which to take with --duplicates "
+            "first|last|min|max|mean|median, or allow for the difference with "
+            "--duplicate-tolerance",
+            BreaklineError);
     }
 
     TEST_CASE("samples near a line are reported on request") {
@@ -272,7 +281,8 @@ TEST_SUITE("optimal/triangulate_lines") {
         TriangulateOptions options;
         CHECK(triangulate(samples, lines, options).report.lines.conflicts.empty());
         options.line_tolerance = 0.5;
-        const std::vector<LineConflict> conflicts = triangulate(samples, lines, options).report.lines.conflicts;
+        const std::vector<LineConflict> conflicts =
+            triangulate(samples, lines, options).report.lines.conflicts;
         REQUIRE(conflicts.size() == 1);
         CHECK(conflicts[0].kind == LineConflict::Kind::SampleNearLine);
         CHECK(conflicts[0].sample == 3);
@@ -295,12 +305,12 @@ TEST_SUITE("optimal/triangulate_lines") {
         const std::vector<Breakline> lines = {{{{0, 0, 0}, {10, 0, 0}}}, {{{0, 10, 1}, {10, 10, 1}}}};
         CHECK(triangulate({}, lines).report.faces == 2);
         const std::vector<Breakline> draped = {{{{0, 0, kDraped}, {10, 0, kDraped}}}};
-        CHECK_THROWS_WITH_AS(triangulate({}, draped),
-                             "lines without z cannot be draped: there are not three samples to drape them on; "
-                             "give the lines' z with z=FIELD or z=NUMBER",
-                             InputError);
-        const std::vector<Breakline> open = {
-            {{{0, 0, 0}, {10, 0, 0}, {10, 10, 0}}, LineRole::Boundary}};
+        CHECK_THROWS_WITH_AS(
+            triangulate({}, draped),
+            "lines without z cannot be draped: there are not three samples to drape them on; "
+            "give the lines' z with z=FIELD or z=NUMBER",
+            InputError);
+        const std::vector<Breakline> open = {{{{0, 0, 0}, {10, 0, 0}, {10, 10, 0}}, LineRole::Boundary}};
         CHECK_THROWS_WITH_AS(triangulate(square_samples(3), open),
                              "the ring of a boundary or hole is not closed: it begins at (0, 0) and ends at "
                              "(10, 10); close it, or give --snap with a distance above the gap",

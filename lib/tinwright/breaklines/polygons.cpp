@@ -109,12 +109,12 @@ class AreaWalk {
         if (!mesh_.is_constrained(h)) {
             return nullptr;
         }
-        const auto [a, b] = std::minmax({mesh_.origin(h), mesh_.destination(h)});
-        const auto found =
-            std::lower_bound(sides_.begin(), sides_.end(), std::pair(a, b),
-                             [](const Side& side, const auto& e) { return std::pair(side.a, side.b) < e; });
+        const std::pair<VertexId, VertexId> edge = std::minmax(mesh_.origin(h), mesh_.destination(h));
+        const auto found = std::lower_bound(
+            sides_.begin(), sides_.end(), edge,
+            [](const Side& side, const auto& sought) { return std::pair(side.a, side.b) < sought; });
         const bool is_side =
-            found != sides_.end() && found->a == a && found->b == b && !found->polygons.empty();
+            found != sides_.end() && std::pair(found->a, found->b) == edge && !found->polygons.empty();
         return is_side ? &found->polygons : nullptr;
     }
 

@@ -203,7 +203,6 @@ class Splitter {
 
     // Whether there was room on the lattice to split the edge.
     bool split(HalfEdgeId h) {
-        constexpr double kMargin = 0.1;
         constexpr int kDeep = 24;
         const TriangleMesh& mesh = tin_.mesh;
         const VertexId a = mesh.origin(h);
@@ -218,7 +217,6 @@ class Splitter {
         c = cosine(d) < cosine(c) ? d : c;
         const int generation_of_new = generation(c) + 1;
         double t = inner_product(key(c), key(a), key(b)) / inner_product(key(b), key(a), key(b));
-        t = std::clamp(t, kMargin, 1 - kMargin);
         const std::uint32_t line_edge = inserter_.line_edge_of(a, b);
         if (line_edge == SteinerInserter::kFree) {
             return true;  // nobody's line

@@ -18,7 +18,7 @@ struct ConformingOptions {
     /// Steiner points allowed; 0: ten a vertex and a hundred an edge of a line, which nothing seen comes
     /// near.
     std::size_t max_steiner = 0;
-    Progress progress;
+    Progress progress = {};
 };
 
 struct ConformingReport {

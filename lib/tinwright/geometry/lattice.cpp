@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 
 #include <tbb/blocked_range.h>
@@ -112,6 +113,12 @@ Survey survey(const SurveyRequest& request) {
         Survey::merge);
 }
 
+// Steps from the lower to the upper bound on the wider axis; `snap` counts steps.
+template <class Snap>
+double widest(const Box& bounds, Snap snap) {
+    return std::max(snap(bounds.x_max) - snap(bounds.x_min), snap(bounds.y_max) - snap(bounds.y_min));
+}
+
 // Decimals of all points on a lattice refined by so many bits; beyond kMostDecimals when there are none. A
 // few points tell most data off.
 int find_decimals(const std::array<std::span<const Point3>, 2>& points, int refinement) {
@@ -163,10 +170,25 @@ int lowest_bit(std::span<const Point3> samples, int floor) {
         [](int a, int b) { return std::min(a, b); });
 }
 
-// Steps from the lower to the upper bound on the wider axis, when a step is `scale` units or 1/scale.
-template <class Snap>
-double widest(const Box& bounds, Snap snap) {
-    return std::max(snap(bounds.x_max) - snap(bounds.x_min), snap(bounds.y_max) - snap(bounds.y_min));
+// The decimal lattice that data with made points among them lie on, refined by as many bits as
+// `refinement_room` would have given it.
+std::optional<Lattice> find_refined(const std::array<std::span<const Point3>, 2>& points, const Box& bounds) {
+    const double largest = std::max(
+        {std::abs(bounds.x_min), std::abs(bounds.x_max), std::abs(bounds.y_min), std::abs(bounds.y_max)});
+    for (int bits = kRefinementBits; bits > 0; --bits) {
+        const int decimals = find_decimals(points, bits);
+        const double steps_per_unit = steps_of(decimals, bits);
+        const auto whole = [&](double v) { return Lattice::nearest_integer(v * steps_per_unit); };
+        if (decimals <= kMostDecimals && largest * steps_per_unit < kStepLimit &&
+            widest(bounds, whole) < kKeyLimit) {
+            // The origin has to lie on the unrefined lattice.
+            const double scale = std::ldexp(1.0, bits);
+            const Key2 origin{std::floor(whole(bounds.x_min) / scale),
+                              std::floor(whole(bounds.y_min) / scale)};
+            return Lattice::decimal(decimals, origin).refined(bits);
+        }
+    }
+    return std::nullopt;
 }
 
 }  // namespace
@@ -199,11 +221,11 @@ Lattice Lattice::refined(int bits) const {
 }
 
 int Lattice::refinement_room(double largest) const {
-    // Half the range of keys stays free, and a quarter of that of steps.
+    // Half the range of keys stays free, and half of that of steps, so that doubles tell points well apart.
     int bits = 0;
     const double from_zero = largest + std::max(std::abs(origin_.x), std::abs(origin_.y));
     while (refinement_ + bits < kRefinementBits && std::ldexp(largest, bits + 1) < kKeyLimit / 2 &&
-           std::ldexp(from_zero, bits + 1) < kStepLimit / 4) {
+           std::ldexp(from_zero, bits + 1) < kStepLimit / 2) {
         ++bits;
     }
     return bits;
@@ -244,15 +266,8 @@ FoundLattice find_lattice(std::span<const Point3> samples, std::span<const Point
         return {Lattice::decimal(seen.decimals, plain.key({bounds.x_min, bounds.y_min})), bounds};
     }
 
-    const int decimals = find_decimals({samples, line_points}, kRefinementBits);
-    const double steps_per_unit = steps_of(decimals, kRefinementBits);
-    if (decimals <= kMostDecimals && largest * steps_per_unit < kStepLimit &&
-        widest(bounds, [&](double v) { return Lattice::nearest_integer(v * steps_per_unit); }) < kKeyLimit) {
-        const auto whole = [&](double v) { return Lattice::nearest_integer(v * steps_per_unit); };
-        // The origin has to lie on the unrefined lattice.
-        const double bits = std::ldexp(1.0, kRefinementBits);
-        const Key2 origin{std::floor(whole(bounds.x_min) / bits), std::floor(whole(bounds.y_min) / bits)};
-        return {Lattice::decimal(decimals, origin).refined(kRefinementBits), bounds};
+    if (const std::optional<Lattice> refined = find_refined({samples, line_points}, bounds)) {
+        return {*refined, bounds};
     }
 
     const double extent = std::max(bounds.x_max - bounds.x_min, bounds.y_max - bounds.y_min);

@@ -81,9 +81,9 @@ class Lattice {
     bool is_exact_ = true;
 };
 
-/// Made points get a lattice 2^12 = 4096 times finer than the data's: a survey to the centimetre gets its
-/// Steiner points to 2.5 micrometres.
-inline constexpr int kRefinementBits = 12;
+/// Made points get a lattice up to 2^20 times finer than the data's: a survey to the centimetre gets its
+/// Steiner points to ten nanometres, near the resolution of its coordinates as doubles.
+inline constexpr int kRefinementBits = 20;
 
 /// A lattice with the bounding box (CRS units) of the samples it was found from.
 struct FoundLattice {
