@@ -167,9 +167,46 @@ TEST_SUITE("geometry/lattice") {
         std::vector<Point3> samples = {
             {2251799813685.5, 0, 0}, {2251799813685.123, 1, 0}, {2251799813684.25, 7, 0}};
         const Lattice lattice = find_lattice(samples).lattice;
-        CHECK(lattice.decimals() == -1);
+        CHECK(lattice.decimals() == 0);
+        CHECK(lattice.refinement() == 9);
         std::swap(samples[0], samples[1]);
         CHECK(find_lattice(samples).lattice == lattice);
+    }
+
+    TEST_CASE("a refined lattice keeps positions bit for bit, and is found again from points made on it") {
+        for (int seed = 1; seed <= cases(50); ++seed) {
+            CAPTURE(seed);
+            Random random(static_cast<std::uint64_t>(seed));
+            const int decimals = static_cast<int>(random.integer(0, 4));
+            std::vector<Point3> samples = decimal_samples(random, 100, decimals, 323456, 5123456, 2000);
+            const FoundLattice found = find_lattice(samples);
+            const Key2 corner = found.lattice.key({found.bounds.x_max, found.bounds.y_max});
+            const int bits = found.lattice.refinement_room(std::max(corner.x, corner.y));
+            REQUIRE(bits > 0);
+            const Lattice fine = found.lattice.refined(bits);
+            const double scale = std::ldexp(1.0, bits);
+            for (const Point3& p : samples) {
+                const Key2 key = found.lattice.key({p.x, p.y});
+                REQUIRE(fine.key({p.x, p.y}) == Key2{key.x * scale, key.y * scale});
+                REQUIRE(same_bits(fine.position(fine.key({p.x, p.y})).x, p.x));
+            }
+            // Points made anywhere in between, as far as doubles tell them apart.
+            for (int i = 0; i < 100; ++i) {
+                const Point2 made =
+                    fine.position({random.key(corner.x * scale), random.key(corner.y * scale)});
+                samples.push_back({made.x, made.y, 0});
+            }
+            const Lattice again = find_lattice(samples).lattice;
+            REQUIRE(again.decimals() == found.lattice.decimals());
+            REQUIRE(again.quantum() == fine.quantum());
+        }
+    }
+
+    TEST_CASE("a coarse lattice has room for no refinement") {
+        const Lattice lattice = Lattice::decimal(0, {});
+        CHECK(lattice.refinement_room(kKeyLimit / 2) == 0);
+        CHECK(lattice.refinement_room(1) == kRefinementBits);
+        CHECK(lattice.refined(3).refinement_room(1) == kRefinementBits - 3);
     }
 
     TEST_CASE("a negative zero comes back as zero") {

@@ -170,12 +170,12 @@ int lowest_bit(std::span<const Point3> samples, int floor) {
         [](int a, int b) { return std::min(a, b); });
 }
 
-// The decimal lattice that data with made points among them lie on, refined by as many bits as
-// `refinement_room` would have given it.
+// The coarsest refined decimal lattice that holds all points: what data with made points among them lie on.
 std::optional<Lattice> find_refined(const std::array<std::span<const Point3>, 2>& points, const Box& bounds) {
     const double largest = std::max(
         {std::abs(bounds.x_min), std::abs(bounds.x_max), std::abs(bounds.y_min), std::abs(bounds.y_max)});
-    for (int bits = kRefinementBits; bits > 0; --bits) {
+    std::optional<Lattice> coarsest;
+    for (int bits = 1; bits <= kRefinementBits; ++bits) {
         const int decimals = find_decimals(points, bits);
         const double steps_per_unit = steps_of(decimals, bits);
         const auto whole = [&](double v) { return Lattice::nearest_integer(v * steps_per_unit); };
@@ -185,10 +185,11 @@ std::optional<Lattice> find_refined(const std::array<std::span<const Point3>, 2>
             const double scale = std::ldexp(1.0, bits);
             const Key2 origin{std::floor(whole(bounds.x_min) / scale),
                               std::floor(whole(bounds.y_min) / scale)};
-            return Lattice::decimal(decimals, origin).refined(bits);
+            const Lattice found = Lattice::decimal(decimals, origin).refined(bits);
+            coarsest = !coarsest || coarsest->quantum() < found.quantum() ? found : coarsest;
         }
     }
-    return std::nullopt;
+    return coarsest;
 }
 
 }  // namespace
