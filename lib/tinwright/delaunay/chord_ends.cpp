@@ -27,8 +27,13 @@ struct CenteredChord {
 // The chords within one disk.
 class ChordsOfDisk {
   public:
-    ChordsOfDisk(const BlockingDisk& disk, Key2 vertex)
-        : disk_(disk), center_{vertex.x + disk.center.x, vertex.y + disk.center.y} {}
+    ChordsOfDisk(const BlockingDisk& disk, std::span<const Key2> keys)
+        : disk_(disk), to_vertex_{-disk.center.x, -disk.center.y} {
+        const Key2 vertex = keys[disk.vertex.value];
+        const Key2 other = keys[disk.towards.value];
+        center_ = {vertex.x + disk.center.x, vertex.y + disk.center.y};
+        has_other_ = disk.radius > kNear * 0.5 * std::hypot(other.x - vertex.x, other.y - vertex.y);
+    }
 
     void add(LineInDisks& edge, Chord& chord, Key2 p, Key2 q) {
         const Offset start{p.x - center_.x, p.y - center_.y};
@@ -41,19 +46,18 @@ class ChordsOfDisk {
     }
 
     void move_ends() {
-        if (chords_.size() < 2 || chords_.size() > kMost) {
+        if (chords_.size() > kMost) {
             return;
         }
         for (CenteredChord& chord : chords_) {
             crease(chord);
         }
-        const Offset to_vertex{-disk_.center.x, -disk_.center.y};
-        const double at_vertex = power(to_vertex);
-        const double at_other = disk_.is_full ? power(disk_.center) : at_vertex;
+        // Vertices on the circle stay where they are: a linear function makes up for it.
+        const double at_vertex = power(to_vertex_);
+        const double at_other = has_other_ ? power(disk_.center) : at_vertex;
         const double square = disk_.radius * disk_.radius;
-        // The vertices on the circle stay where they are: a linear function makes up for it.
         const auto change = [&](Offset place) {
-            const double along = dot(place, to_vertex) / square;  // 1 at the vertex, -1 opposite
+            const double along = dot(place, to_vertex_) / square;  // 1 at the vertex, -1 opposite
             return power(place) - 0.5 * ((1 + along) * at_vertex + (1 - along) * at_other);
         };
         for (const CenteredChord& moved : chords_) {
@@ -74,24 +78,30 @@ class ChordsOfDisk {
 
   private:
     static constexpr std::size_t kMost = 1000;
+    static constexpr double kNear = 0.99;   // of a full disk: i_j counts as on the circle
     static constexpr double kShare = 0.05;  // of a chord: no end moves farther than that
 
-    // A place that is rounded moves by up to 3 steps, which changes its power by up to 6 radii; 4 places
-    // decide together whether an edge is Delaunay.
+    // A place that is rounded moves by up to 3 steps, which changes its power by up to 6 radii, and 4 places
+    // decide together whether an edge is Delaunay; some of that is rarely needed.
     void crease(CenteredChord& chord) const {
         constexpr double kRounding = 16;
-        double least = 0;
+        constexpr double kSteepest = 0.005;  // of the radius
+        double least = disk_.radius;
         const auto look_at = [&](Offset place) {
             const double height = chord.height(place);
-            if (height > 1 && (least == 0 || height < least)) {
-                least = height;
+            if (height > 1) {
+                least = std::min(least, height);
             }
         };
         for (const CenteredChord& other : chords_) {
             look_at(other.begin);
             look_at(other.end);
         }
-        chord.crease = least > 0 ? kRounding * disk_.radius / least : 0;
+        look_at(to_vertex_);
+        if (has_other_) {
+            look_at(disk_.center);
+        }
+        chord.crease = std::min(kRounding * disk_.radius / least, kSteepest * disk_.radius);
     }
 
     [[nodiscard]] double power(Offset place) const {
@@ -103,7 +113,9 @@ class ChordsOfDisk {
     }
 
     const BlockingDisk& disk_;
-    Key2 center_;
+    Offset to_vertex_;  // j, from the centre
+    Key2 center_{};
+    bool has_other_ = false;  // whether i_j is on the circle, opposite of j
     std::vector<CenteredChord> chords_;
 };
 
@@ -125,7 +137,7 @@ void move_chord_ends(const BlockingDisks& disks, std::span<const Key2> keys, std
     std::sort(entries.begin(), entries.end());
     for (auto first = entries.begin(); first != entries.end();) {
         const BlockingDisk& disk = disks.disks()[first->disk];
-        ChordsOfDisk chords(disk, keys[disk.vertex.value]);
+        ChordsOfDisk chords(disk, keys);
         auto entry = first;
         for (; entry != entries.end() && entry->disk == first->disk; ++entry) {
             LineInDisks& edge = edges[entry->edge];

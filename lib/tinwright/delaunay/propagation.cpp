@@ -1,9 +1,12 @@
 #include "tinwright/delaunay/propagation.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
+#include <vector>
 
 #include "tinwright/delaunay/blocking_disks.hpp"
 #include "tinwright/delaunay/circle_points.hpp"
@@ -198,9 +201,10 @@ class Propagation {
                 put_in(points_[*point], a);
                 continue;
             }
-            const double share =
-                inner_product(key(c), key(a), key(b)) / inner_product(key(b), key(a), key(b));
-            const std::optional<VertexId> made = inserter_.split(h, share);
+            const double square = inner_product(key(b), key(a), key(b));
+            const double share = inner_product(key(c), key(a), key(b)) / square;
+            const std::optional<VertexId> made =
+                inserter_.split(h, share + shift(c, a, b) / std::sqrt(square));
             if (made) {
                 ++report_.propagated_vertices;
                 report_.projections.emplace_back(*made, c);
@@ -223,6 +227,30 @@ class Propagation {
         const auto& [p, q] = inserter_.line_edges()[inserter_.line_edge_of(c, c)];
         const int side = orient2d(key(p), key(q), key(sources_[index]));
         return side == orient2d(key(p), key(q), key(a)) || side == orient2d(key(p), key(q), key(b));
+    }
+
+    // What to add to the way from a to b where c is projected onto it: some steps away from the vertex where
+    // its line's edge meets that of c, if it does. Projections of c onto all edges at that vertex lie on one
+    // circle through it and c, and after rounding each might come to lie inside.
+    [[nodiscard]] double shift(VertexId c, VertexId a, VertexId b) const {
+        constexpr double kSteps = 4;  // `split` may go 3 steps from where it is told to
+        const LineInDisks& edge = lines_.edges[inserter_.line_edge_of(a, b)];
+        for (const VertexId v : {edge.p, edge.q}) {
+            if (is_on_edge_at(c, v)) {
+                return inner_product(key(v), key(a), key(b)) > 0 ? -kSteps : kSteps;
+            }
+        }
+        return 0;
+    }
+
+    // Whether c is on an edge of a line that ends at v, which is no Steiner point.
+    [[nodiscard]] bool is_on_edge_at(VertexId c, VertexId v) const {
+        const auto& edges = inserter_.line_edges();
+        if (c.value < inserter_.old_vertex_count()) {
+            return std::binary_search(edges.begin(), edges.end(), std::pair(std::min(c, v), std::max(c, v)));
+        }
+        const std::uint32_t line_edge = inserter_.line_edge_of(c, c);
+        return line_edge < edges.size() && (edges[line_edge].first == v || edges[line_edge].second == v);
     }
 
     // If a wall passes between an edge and the apex c that disturbs it, the wall has an end in the circle
