@@ -2,6 +2,7 @@
 
 #include "tinwright/geometry/decimal.hpp"
 
+#include "conflict_layer.hpp"
 #include "console.hpp"
 #include "job_report.hpp"
 #include "option_values.hpp"
@@ -17,8 +18,11 @@ io::TinMetadata raster_metadata(const Surface& surface, const CommandGrid& comma
     io::TinMetadata metadata{{"TINWRIGHT_VERSION", TINWRIGHT_VERSION}, {"TINWRIGHT_COMMAND", "grid"}};
     const io::TinMetadata criterion = criterion_metadata(surface.criterion);
     metadata.insert(metadata.end(), criterion.begin(), criterion.end());
+    const io::TinMetadata of_lines = lines_metadata(surface.lines);
+    metadata.insert(metadata.end(), of_lines.begin(), of_lines.end());
     if (surface.report) {
-        metadata.emplace_back("TINWRIGHT_OPTIONS", command.triangulation.canonical() + " " + method);
+        metadata.emplace_back("TINWRIGHT_OPTIONS",
+                              command.triangulation.canonical() + command.lines.canonical() + " " + method);
         return metadata;
     }
     std::string options = metadata_value(surface.metadata, "TINWRIGHT_OPTIONS");
@@ -44,20 +48,24 @@ void CommandGrid::setup(const std::vector<std::string>& arguments) {
     output.add_creation_options_to(*parser);
     raster.add_geometry_to(*parser);
     raster.add_values_to(*parser);
+    lines.add_sources_to(*parser);
     triangulation.add_to(*parser, "trimmed");
+    lines.add_constraints_to(*parser);
+    lines.add_fitting_to(*parser);
     crs.add_to(*parser);
     triangulation.add_threads_to(*parser);
     talk.add_to(*parser);
     parse_options(*parser, arguments);
 
-    sources.finish();
+    sources.finish(lines.has_breaklines());
+    lines.finish(sources.open_options);
     output.finish(true);
     raster.finish();
     triangulation.finish(DomainRule::Kind::Trimmed);
     talk.finish(output.is_stdout());
-    if (!raster.preview.empty() && raster.preview == output.path) {
-        throw UsageError("--preview and -o name the same file " + io::quoted(output.path));
-    }
+    refuse_same_file("--preview", raster.preview, "-o", output.path);
+    refuse_same_file("--conflicts", lines.conflicts, "-o", output.path);
+    refuse_same_file("--conflicts", lines.conflicts, "--preview", raster.preview);
 }
 
 io::WriteGridOptions CommandGrid::write_options() const {
@@ -87,20 +95,31 @@ GridGeometry CommandGrid::grid_for(const Surface& surface, const std::optional<G
 
 Outcome CommandGrid::run() {
     Console console("grid", talk);
-    refuse_to_overwrite_sources(output.path, sources.sources);
-    refuse_to_overwrite_sources(raster.preview, sources.sources);
+    std::vector<io::Source> read = lines.plain_sources();
+    read.insert(read.end(), sources.sources.begin(), sources.sources.end());
+    for (const std::string& file : {output.path, raster.preview, lines.conflicts}) {
+        refuse_to_overwrite_sources(file, read);
+    }
     io::WriteGridOptions options = write_options();
     check_output_place(output.path, output.overwrite);
     io::check_grid_target(output.path, options);
     check_output_place(raster.preview, output.overwrite);
+    if (!lines.conflicts.empty()) {
+        check_output_place(lines.conflicts, output.overwrite);
+        check_conflict_target(lines.conflicts);
+    }
     io::Crs like_crs;
     std::optional<GridGeometry> like;
     if (!raster.like.empty()) {
         like = io::read_grid_geometry(raster.like, &like_crs);
     }
 
-    const SurfaceRequest request{
-        .sources = sources, .crs = crs, .triangulation = triangulation, .progress_end = 0.6};
+    const SurfaceRequest request{.sources = sources,
+                                 .crs = crs,
+                                 .triangulation = triangulation,
+                                 .lines = &lines,
+                                 .overwrite_conflicts = output.overwrite,
+                                 .progress_end = 0.6};
     const bool is_tin = is_existing_tin(request);
     const Surface surface =
         is_tin ? read_existing_tin(request, console) : triangulate_sources(request, console);
@@ -112,6 +131,9 @@ Outcome CommandGrid::run() {
     options.metadata = raster_metadata(surface, *this);
     options.progress = console.progress().stage(0.6, 1);
     const io::WrittenGrid written = io::write_grid(surface.tin, surface.crs, grid, output.path, options);
+    if (surface.conflicts) {
+        surface.conflicts->commit();
+    }
     console.progress().finish();
     for (const std::string& warning : written.warnings) {
         console.warn(warning);
@@ -128,6 +150,9 @@ Outcome CommandGrid::run() {
     report.outputs = {output.path};
     if (!raster.preview.empty()) {
         report.outputs.push_back(raster.preview);
+    }
+    if (surface.conflicts) {
+        report.outputs.push_back(lines.conflicts);
     }
     report.output_driver = written.driver;
     console.say(report_text(report, surface, {talk.verbose, talk.verbose}));

@@ -5,6 +5,7 @@
 
 #include "command.hpp"
 #include "options_crs.hpp"
+#include "options_lines.hpp"
 #include "options_output.hpp"
 #include "options_raster.hpp"
 #include "options_sources.hpp"
@@ -25,6 +26,7 @@ class CommandGrid : public Command {
     SourceOptions sources;
     CrsOptions crs;
     TriangulationOptions triangulation;
+    LineOptions lines;
     RasterOptions raster;
     OutputOptions output;
     TalkOptions talk;

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <utility>
 
+#include "conflict_layer.hpp"
 #include "console.hpp"
 #include "job_report.hpp"
 #include "option_values.hpp"
@@ -37,18 +38,23 @@ void CommandTin::setup(const std::vector<std::string>& arguments) {
     add_value(*parser, "--layer-name,--nln", layer_name, "NAME", "layer to write (single-layer drivers)");
     add_value(*parser, "--geometry", geometry_text, "WHAT", "polygon (default)|tin|edges|vertices");
     parser->add_flag("--ids", keep_ids, "record line and cell numbers as feature ids");
+    lines.add_sources_to(*parser);
     triangulation.add_to(*parser, "convex");
+    lines.add_constraints_to(*parser);
+    lines.add_fitting_to(*parser);
     crs.add_to(*parser);
     triangulation.add_threads_to(*parser);
     talk.add_to(*parser);
     parse_options(*parser, arguments);
 
-    sources.finish();
+    sources.finish(lines.has_breaklines());
+    lines.finish(sources.open_options);
     output.finish(true);
     check_key_values("--lco", layer_options);
     geometry = choice_value("--geometry", geometry_text, kGeometries);
     triangulation.finish(DomainRule::Kind::Convex);
     talk.finish(output.is_stdout());
+    refuse_same_file("--conflicts", lines.conflicts, "-o", output.path);
 }
 
 io::WriteTinOptions CommandTin::write_options() const {
@@ -61,30 +67,45 @@ io::WriteTinOptions CommandTin::write_options() const {
     options.overwrite = output.overwrite;
     options.metadata = {{"TINWRIGHT_VERSION", TINWRIGHT_VERSION},
                         {"TINWRIGHT_COMMAND", "tin"},
-                        {"TINWRIGHT_OPTIONS", triangulation.canonical()}};
+                        {"TINWRIGHT_OPTIONS", triangulation.canonical() + lines.canonical()}};
     return options;
 }
 
 Outcome CommandTin::run() {
     Console console("tin", talk);
-    refuse_to_overwrite_sources(output.path, sources.sources);
+    std::vector<io::Source> read = lines.plain_sources();
+    read.insert(read.end(), sources.sources.begin(), sources.sources.end());
+    refuse_to_overwrite_sources(output.path, read);
+    refuse_to_overwrite_sources(lines.conflicts, read);
     io::WriteTinOptions options = write_options();
     check_output_place(output.path, output.overwrite);
     io::check_tin_target(output.path, options);
+    if (!lines.conflicts.empty()) {
+        check_output_place(lines.conflicts, output.overwrite);
+        check_conflict_target(lines.conflicts);
+    }
 
     const SurfaceRequest request{.sources = sources,
                                  .crs = crs,
                                  .triangulation = triangulation,
+                                 .lines = &lines,
+                                 .overwrite_conflicts = output.overwrite,
                                  .keep_origins = true,
                                  .keep_ids = keep_ids,
                                  .progress_end = 0.7};
     Surface surface = triangulate_sources(request, console);
     const io::TinMetadata criterion = criterion_metadata(surface.criterion);
     options.metadata.insert(options.metadata.end(), criterion.begin(), criterion.end());
-    options.origins = std::move(surface.origins);
+    const io::TinMetadata of_lines = lines_metadata(surface.lines);
+    options.metadata.insert(options.metadata.end(), of_lines.begin(), of_lines.end());
+    options.origins = std::move(surface.origins.vertices);
+    options.lines = std::move(surface.origins.lines);
     options.progress = console.progress().stage(0.7, 1);
     const auto start = std::chrono::steady_clock::now();
     const io::WrittenTin written = io::write_tin(surface.tin, surface.crs, output.path, options);
+    if (surface.conflicts) {
+        surface.conflicts->commit();
+    }
     console.progress().finish();
     for (const std::string& warning : written.warnings) {
         console.warn(warning);
@@ -95,6 +116,9 @@ Outcome CommandTin::run() {
     report.domain = triangulation.domain_name();
     report.duplicate_policy = triangulation.policy_name();
     report.outputs = {output.path};
+    if (surface.conflicts) {
+        report.outputs.push_back(lines.conflicts);
+    }
     report.output_driver = written.driver;
     report.write_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     console.say(report_text(report, surface, {talk.verbose, talk.verbose}));

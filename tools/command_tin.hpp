@@ -5,6 +5,7 @@
 
 #include "command.hpp"
 #include "options_crs.hpp"
+#include "options_lines.hpp"
 #include "options_output.hpp"
 #include "options_sources.hpp"
 #include "options_talk.hpp"
@@ -21,6 +22,7 @@ class CommandTin : public Command {
     SourceOptions sources;
     CrsOptions crs;
     TriangulationOptions triangulation;
+    LineOptions lines;
     OutputOptions output;
     TalkOptions talk;
     std::string geometry_text = "polygon";

@@ -16,16 +16,13 @@ namespace {
 std::size_t count_constrained_edges(const TriangleMesh& mesh) {
     std::size_t edges = 0;
     for (std::uint32_t f = 0; f < mesh.slot_count(); ++f) {
-        for (unsigned corner = 0; corner < 3; ++corner) {
+        for (unsigned corner = 0; corner < 3 && mesh.is_terrain({f}); ++corner) {
             const HalfEdgeId h = half_edge(FaceId{f}, corner);
-            edges += mesh.is_constrained(h) && h < mesh.twin(h) ? 1U : 0U;
+            const bool is_first = h < mesh.twin(h) || !mesh.is_terrain(face_of(mesh.twin(h)));
+            edges += mesh.is_constrained(h) && is_first ? 1U : 0U;
         }
     }
     return edges;
-}
-
-std::int64_t count_steiner_vertices(const Tin& tin) {
-    return std::count(tin.sample.begin(), tin.sample.end(), Tin::kNoSample);
 }
 
 Box bounds_of(const Surface& surface) {
@@ -118,6 +115,9 @@ std::string tin_line(const JobReport& report, const Surface& surface) {
     std::string text = counted(faces, "face", "faces") + " on " +
                        counted(surface.tin.vertex_count(), "vertex", "vertices") + ", domain " +
                        report.domain;
+    if (surface.report && surface.report->domain.cut_faces > 0) {
+        text += ", " + counted(surface.report->domain.cut_faces, "face", "faces") + " cut off";
+    }
     if (surface.report && surface.report->domain.trimmed_faces > 0) {
         text += " (" + std::to_string(surface.report->domain.trimmed_faces) + " border faces dropped)";
     }
@@ -148,13 +148,21 @@ std::string raster_line(const RasterReport& raster) {
            " % with a value, nodata " + decimal_text(raster.written.nodata);
 }
 
+/// Step of the coordinates that came in; made points may have a finer one.
+double data_quantum(const Lattice& lattice) { return std::ldexp(lattice.quantum(), lattice.refinement()); }
+
 std::string quantum_line(const Lattice& lattice) {
+    const int bits = lattice.refinement();
+    const std::string made =
+        bits == 0 ? std::string()
+                  : "; made points at 1/" + std::to_string(1U << static_cast<unsigned>(bits)) + " of it";
     if (lattice.decimals() >= 0) {
-        return decimal_text(lattice.quantum());
+        return decimal_text(data_quantum(lattice)) + made;
     }
     std::array<char, 48> text{};
-    std::snprintf(text.data(), text.size(), "2^%d, about %.1e", lattice.exponent(), lattice.quantum());
-    return std::string(text.data()) + (lattice.is_exact() ? "" : "; coordinates are rounded to it");
+    std::snprintf(text.data(), text.size(), "2^%d, about %.1e", lattice.exponent() + bits,
+                  data_quantum(lattice));
+    return text.data() + (lattice.is_exact() ? std::string() : "; coordinates are rounded to it") + made;
 }
 
 std::string crs_line(const Surface& surface) {
@@ -213,7 +221,7 @@ JsonValue make_json(const JobReport& report, const Surface& surface) {
     if (surface.report) {
         json.set("hull_vertices", surface.report->hull_vertices);
     }
-    json.set("quantum", surface.tin.lattice.quantum());
+    json.set("quantum", data_quantum(surface.tin.lattice));
     if (surface.report) {
         const DuplicateReport& duplicates = surface.report->duplicates;
         json.set(
@@ -222,15 +230,21 @@ JsonValue make_json(const JobReport& report, const Surface& surface) {
     }
     json.set("constrained_edges", count_constrained_edges(surface.tin.mesh));
     if (surface.report) {
-        json.set("steiner_vertices", count_steiner_vertices(surface.tin));
-        json.set("conflicts", 0);  // points alone have none; lines would
+        json.set("steiner_vertices", surface.lines.steiner_vertices.value_or(0));
+        json.set("conflicts", surface.report->lines.conflicts.size());
+    } else if (surface.lines.steiner_vertices) {
+        json.set("steiner_vertices", *surface.lines.steiner_vertices);
+    }
+    if (surface.lines.counts) {
+        json.set("lines", lines_json(surface.lines));
     }
     if (!surface.criterion.name.empty()) {
         json.set("criterion", criterion_json(surface.criterion));
     }
     if (surface.report) {
-        // Without lines, nothing but another criterion breaks Delaunay edges.
-        json.set("conforming", !surface.report->optimize.has_value());
+        json.set("conforming", surface.report->is_conforming && !surface.report->optimize);
+    } else if (surface.lines.is_conforming) {
+        json.set("conforming", *surface.lines.is_conforming);
     }
     json.set("domain", report.domain);
     if (report.raster) {
@@ -254,6 +268,9 @@ std::string report_text(const JobReport& report, const Surface& surface, const R
     if (surface.report && surface.report->duplicates.equal + surface.report->duplicates.conflicting > 0) {
         add("duplicates", duplicates_line(report, surface.report->duplicates));
         text += detail.conflicts ? conflict_lines(surface.report->duplicates) : "";
+    }
+    for (const auto& [label, line] : lines_lines(surface.lines)) {
+        add(label, line);
     }
     add("TIN", tin_line(report, surface));
     std::string label = "criterion";

@@ -34,6 +34,13 @@ void check_output_place(const std::string& output, bool overwrite) {
     }
 }
 
+void refuse_same_file(const std::string& option, const std::string& file, const std::string& other_option,
+                      const std::string& other_file) {
+    if (!file.empty() && file == other_file) {
+        throw UsageError(option + " and " + other_option + " name the same file " + io::quoted(file));
+    }
+}
+
 void refuse_to_overwrite_sources(const std::string& output, std::span<const io::Source> sources) {
     if (output.empty()) {
         return;

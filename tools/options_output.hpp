@@ -32,6 +32,10 @@ struct OutputOptions {
 /// before any work is done. Leaves nothing behind.
 void check_output_place(const std::string& output, bool overwrite);
 
+/// Throws UsageError when two options that write name one file; neither may be empty for that.
+void refuse_same_file(const std::string& option, const std::string& file, const std::string& other_option,
+                      const std::string& other_file);
+
 /// Throws UsageError when `output` is one of the files that are read, by name or as the same file on disk.
 void refuse_to_overwrite_sources(const std::string& output, std::span<const io::Source> sources);
 /// Throws UsageError when a creation option is not KEY=VALUE.

@@ -14,8 +14,8 @@ void SourceOptions::add_skip_bad_to(CLI::App& parser) {
     parser.add_flag("--skip-bad", skip_bad, "count unusable rows and features and go on");
 }
 
-void SourceOptions::finish() {
-    if (texts.empty()) {
+void SourceOptions::finish(bool may_be_none) {
+    if (texts.empty() && !may_be_none) {
         throw UsageError("no source is given: name a file with points, such as survey.csv");
     }
     for (const std::string& option : open_options) {

@@ -20,8 +20,8 @@ struct SourceOptions {
     /// The sources and --oo.
     void add_to(CLI::App& parser);
     void add_skip_bad_to(CLI::App& parser);
-    /// Parses the sources. Throws UsageError when there is none.
-    void finish();
+    /// Parses the sources. Throws UsageError when there is none, unless `may_be_none`.
+    void finish(bool may_be_none = false);
 };
 
 }  // namespace tinwright::tools

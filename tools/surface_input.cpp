@@ -8,7 +8,8 @@
 #include "tinwright/io/gdal_session.hpp"
 #include "tinwright/io/read_tin.hpp"
 
-#include "vertex_origins.hpp"
+#include "conflict_layer.hpp"
+#include "line_points.hpp"
 
 namespace tinwright::tools {
 
@@ -30,32 +31,99 @@ bool looks_like_tin(const io::Source& source) {
     return can_look_first(source) && io::is_tin(source);
 }
 
-/// `message` with the first few of the samples it is about named by file and line or feature.
-std::string located(const std::string& message, const io::Samples& samples,
-                    std::vector<std::size_t> indices) {
+/// Samples and lines as they were read, and the names of both in messages.
+struct Inputs {
+    io::Samples samples;
+    io::Lines lines;
+
+    /// Of a sample, or from the number of samples on of a line's point.
+    [[nodiscard]] std::string describe_point(std::size_t index, const LinePoints& line_points) const {
+        if (index < samples.points.size()) {
+            return samples.describe(index);
+        }
+        const auto line = line_points.find_line(index - samples.points.size());
+        return line ? lines.describe(*line) : "point " + std::to_string(index);
+    }
+};
+
+/// `message` with the first few of the places it is about.
+std::string located(const std::string& message, const std::vector<std::string>& places) {
     constexpr std::size_t kNamed = 3;
     std::string text = message;
-    for (std::size_t i = 0; i < std::min(indices.size(), kNamed); ++i) {
-        text += (i == 0 ? " (" : "; ") + samples.describe(indices[i]);
+    for (std::size_t i = 0; i < std::min(places.size(), kNamed); ++i) {
+        text += (i == 0 ? " (" : "; ") + places[i];
     }
-    if (indices.size() > kNamed) {
-        text += "; and " + std::to_string(indices.size() - kNamed) + " more";
+    if (places.size() > kNamed) {
+        text += "; and " + std::to_string(places.size() - kNamed) + " more";
     }
-    return indices.empty() ? text : text + ")";
+    return places.empty() ? text : text + ")";
 }
 
-Triangulated triangulate_located(const io::Samples& samples, const TriangulateOptions& options) {
+Triangulated triangulate_located(const Inputs& inputs, const TriangulateOptions& options) {
+    const LinePoints line_points(inputs.lines.lines);
+    const auto places_of = [&](const std::vector<std::size_t>& points) {
+        std::vector<std::string> places;
+        for (const std::size_t point : points) {
+            places.push_back(inputs.describe_point(point, line_points));
+        }
+        places.erase(std::unique(places.begin(), places.end()), places.end());
+        return places;
+    };
     try {
-        return triangulate(samples.points, options);
+        return triangulate(inputs.samples.points, inputs.lines.lines, options);
     } catch (const DuplicateError& error) {
         std::vector<std::size_t> first;
         if (!error.first().empty()) {
             first = error.first().front().samples;
         }
-        throw InputError(located(error.what(), samples, first), first);
+        throw InputError(located(error.what(), places_of(first)), first);
+    } catch (const BreaklineError& error) {
+        std::vector<std::string> places;
+        for (const std::size_t line : error.lines()) {
+            places.push_back(inputs.lines.describe(line));
+        }
+        places.erase(std::unique(places.begin(), places.end()), places.end());
+        const std::vector<std::string> samples = places_of(error.samples());
+        places.insert(places.end(), samples.begin(), samples.end());
+        throw InputError(located(error.what(), places), error.samples());
     } catch (const InputError& error) {
-        throw InputError(located(error.what(), samples, error.samples()), error.samples());
+        throw InputError(located(error.what(), places_of(error.samples())), error.samples());
     }
+}
+
+Inputs read_inputs(const SurfaceRequest& request, Console& console, double end) {
+    const bool has_lines = request.lines != nullptr && !request.lines->sources.empty();
+    const double samples_end = has_lines ? 0.9 * end : end;
+    Inputs inputs;
+    io::ReadOptions options;
+    options.skip_bad = request.sources.skip_bad;
+    options.crs = request.crs.crs();
+    options.source_crs = request.crs.source_crs();
+    options.threads = request.triangulation.threads;
+    options.progress = console.progress().stage(0, samples_end);
+    inputs.samples = io::read_samples(request.sources.sources, options);
+    if (has_lines) {
+        io::ReadLinesOptions line_options;
+        line_options.skip_bad = options.skip_bad;
+        line_options.crs = inputs.samples.crs;
+        line_options.source_crs = options.source_crs;
+        line_options.z_unit = inputs.samples.z_unit;
+        line_options.snap = request.lines->noding.snap;
+        line_options.progress = console.progress().stage(samples_end, end);
+        inputs.lines = io::read_lines(request.lines->sources, line_options);
+        const bool is_crs_new = inputs.lines.crs.is_known() && !inputs.samples.crs.is_known();
+        if (is_crs_new && !inputs.samples.points.empty()) {
+            inputs.lines.warnings.push_back("the samples have no CRS; taken to be in " +
+                                            inputs.lines.crs.name() + " as the lines are");
+        }
+    }
+    for (const std::vector<std::string>* const warnings :
+         {&inputs.samples.warnings, &inputs.lines.warnings}) {
+        for (const std::string& warning : *warnings) {
+            console.warn(warning);
+        }
+    }
+    return inputs;
 }
 
 }  // namespace
@@ -82,7 +150,10 @@ bool is_existing_tin(const SurfaceRequest& request) {
                          " is a TIN and cannot be mixed with other sources: give it alone, or add "
                          ",as=samples to take its vertices as samples");
     }
-    const std::string option = request.triangulation.option_for_samples_only();
+    std::string option = request.triangulation.option_for_samples_only();
+    if (option.empty() && request.lines != nullptr) {
+        option = request.lines->first_given();
+    }
     if (!option.empty()) {
         throw UsageError(name + " is a TIN, whose faces are used as they are: " + option +
                          " does not apply; add ,as=samples to triangulate its vertices anew");
@@ -95,39 +166,47 @@ Surface triangulate_sources(const SurfaceRequest& request, Console& console) {
     const bool is_optimizing = request.triangulation.optimize.has_value();
     const double triangulate_at = request.progress_end * (is_optimizing ? 0.2 : 0.5);
     const double optimize_at = request.progress_end * (is_optimizing ? 0.3 : 1.0);
-    io::ReadOptions options;
-    options.skip_bad = request.sources.skip_bad;
-    options.crs = request.crs.crs();
-    options.source_crs = request.crs.source_crs();
-    options.threads = request.triangulation.threads;
-    options.progress = console.progress().stage(0, triangulate_at);
-    io::Samples samples = io::read_samples(request.sources.sources, options);
-    for (const std::string& warning : samples.warnings) {
-        console.warn(warning);
+    Inputs inputs = read_inputs(request, console, triangulate_at);
+    TriangulateOptions options = request.triangulation.library_options(
+        console.progress().stage(triangulate_at, optimize_at),
+        console.progress().stage_to_leave(optimize_at, request.progress_end));
+    if (request.lines != nullptr) {
+        request.lines->apply_to(options);
     }
+    Triangulated made = triangulate_located(inputs, options);
+    // What was done while reading comes first, as it was done first.
+    std::vector<LineConflict>& conflicts = made.report.lines.conflicts;
+    conflicts.insert(conflicts.begin(), inputs.lines.conflicts.begin(), inputs.lines.conflicts.end());
 
-    Triangulated made = triangulate_located(
-        samples, request.triangulation.library_options(
-                     console.progress().stage(triangulate_at, optimize_at),
-                     console.progress().stage_to_leave(optimize_at, request.progress_end)));
     Surface surface;
+    surface.crs = inputs.samples.crs.is_known() ? inputs.samples.crs : inputs.lines.crs;
+    surface.z_unit = inputs.samples.z_unit.empty() ? inputs.lines.z_unit : inputs.samples.z_unit;
     if (request.keep_origins) {
-        surface.origins = make_vertex_origins(made.tin, samples.slices, request.keep_ids);
+        surface.origins = make_tin_origins(made.tin, inputs.samples.slices, inputs.lines, request.keep_ids);
+    }
+    if (request.lines != nullptr) {
+        surface.lines = summarize_lines(*request.lines, inputs.lines, made.tin, made.report);
+        if (!request.lines->conflicts.empty()) {
+            surface.conflicts = write_conflicts(conflicts, {inputs.lines, inputs.samples}, surface.crs,
+                                                request.lines->conflicts, request.overwrite_conflicts);
+        }
     }
     surface.tin = std::move(made.tin);
     surface.report = std::move(made.report);
-    surface.crs = samples.crs;
-    surface.z_unit = samples.z_unit;
     surface.criterion = make_criterion_report(request.triangulation, surface.report->optimize, surface.crs);
-    for (const std::string& warning :
+    std::vector<std::string> warnings = lines_warnings(surface.lines);
+    for (std::string& warning :
          criterion_warnings(request.triangulation, surface.report->optimize, surface.crs, surface.z_unit)) {
+        warnings.push_back(std::move(warning));
+    }
+    for (const std::string& warning : warnings) {
         console.warn(warning);
     }
-    surface.slices = std::move(samples.slices);
+    surface.slices = std::move(inputs.samples.slices);
     for (io::SampleSlice& slice : surface.slices) {
         slice.ids = {};  // the origins have what is wanted of them
     }
-    surface.read_seconds = samples.seconds;
+    surface.read_seconds = inputs.samples.seconds + inputs.lines.seconds;
     return surface;
 }
 
@@ -147,6 +226,7 @@ Surface read_existing_tin(const SurfaceRequest& request, Console& console) {
     surface.z_unit = surface.crs.z_unit();
     surface.metadata = std::move(file.metadata);
     surface.criterion = read_criterion_report(surface.metadata);
+    surface.lines = read_lines_summary(surface.metadata);
     surface.tin_layer = std::move(file.layer);
     if (request.triangulation.max_edge) {
         surface.void_faces = drop_long_faces(surface.tin, *request.triangulation.max_edge);

@@ -1,11 +1,13 @@
 #ifndef TINWRIGHT_TOOLS_SURFACE_INPUT_HPP
 #define TINWRIGHT_TOOLS_SURFACE_INPUT_HPP
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "tinwright/io/atomic_output.hpp"
 #include "tinwright/io/read_samples.hpp"
 #include "tinwright/io/write_tin.hpp"
 #include "tinwright/mesh/tin.hpp"
@@ -13,9 +15,12 @@
 
 #include "console.hpp"
 #include "criterion_report.hpp"
+#include "lines_report.hpp"
 #include "options_crs.hpp"
+#include "options_lines.hpp"
 #include "options_sources.hpp"
 #include "options_triangulation.hpp"
+#include "vertex_origins.hpp"
 
 namespace tinwright::tools {
 
@@ -27,20 +32,26 @@ struct Surface {
     std::vector<io::SampleSlice> slices;      ///< what was read, without ids; empty for a TIN file
     std::optional<TriangulateReport> report;  ///< only when triangulated
     CriterionReport criterion;
-    io::VertexOrigins origins;   ///< as a TIN file keeps them
+    LinesSummary lines;
+    TinOrigins origins;          ///< as a TIN file keeps them
     io::TinMetadata metadata;    ///< of the TIN file
     std::string tin_layer;       ///< of the TIN file
     std::size_t void_faces = 0;  ///< dropped by --max-edge from a TIN file
     double read_seconds = 0;
+    /// The file of --conflicts, complete but under a temporary name; null: none was asked for.
+    std::unique_ptr<io::AtomicOutput> conflicts;
 };
 
-/// How sources become a surface. `progress_end`: the share of the whole job that ends with the TIN.
+/// How sources become a surface. `lines`: null where the command takes none. `progress_end`: the share of the
+/// whole job that ends with the TIN.
 struct SurfaceRequest {
     const SourceOptions& sources;
     const CrsOptions& crs;
     const TriangulationOptions& triangulation;
-    bool keep_origins = false;  ///< the surface is to know its vertices' sources
-    bool keep_ids = false;      ///< with the ids of text rows and raster cells too
+    const LineOptions* lines = nullptr;
+    bool overwrite_conflicts = false;  ///< the file of --conflicts may be replaced
+    bool keep_origins = false;         ///< the surface is to know its vertices' sources
+    bool keep_ids = false;             ///< with the ids of text rows and raster cells too
     double progress_end = 1;
 };
 
@@ -51,8 +62,8 @@ std::string metadata_value(const io::TinMetadata& metadata, const std::string& k
 /// when an option is given that a TIN's own faces leave no room for.
 bool is_existing_tin(const SurfaceRequest& request);
 
-/// Reads samples and triangulates them. Warnings go to the console; errors about samples get the file and
-/// line or feature of each added.
+/// Reads samples and lines and triangulates them. Warnings go to the console; errors about samples and lines
+/// get the file and line or feature of each added.
 Surface triangulate_sources(const SurfaceRequest& request, Console& console);
 
 /// Reads the one source as a TIN.

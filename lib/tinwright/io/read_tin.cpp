@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <map>
+#include <optional>
+#include <tuple>
 #include <utility>
 
 #include <cpl_string.h>
@@ -11,11 +14,50 @@
 #include "tinwright/geometry/lattice.hpp"
 #include "tinwright/geometry/predicates.hpp"
 #include "tinwright/io/gdal_session.hpp"
+#include "tinwright/io/tin_layers.hpp"
 #include "tinwright/io/tin_source.hpp"
 #include "tinwright/io/tin_triangles.hpp"
 
 namespace tinwright::io {
 namespace {
+
+/// The fields of a layer of edges that tell which line an edge is part of; -1: not there.
+struct LineFields {
+    explicit LineFields(const OGRFeatureDefn& definition)
+        : role(definition.GetFieldIndex("role")),
+          source(definition.GetFieldIndex("source")),
+          feature(definition.GetFieldIndex("feature")),
+          sharp(definition.GetFieldIndex("sharp")) {}
+
+    /// The line, if the feature is part of one.
+    [[nodiscard]] std::optional<LineOrigin> read(const OGRFeature& edge) const {
+        if (role < 0) {
+            return std::nullopt;
+        }
+        const std::string word = edge.GetFieldAsString(role);
+        LineOrigin line;
+        for (const LineRole known : {LineRole::Breakline, LineRole::Boundary, LineRole::Hole}) {
+            if (word == role_word(known)) {
+                line.role = known;
+                line.is_sharp = !is_set(edge, sharp) || edge.GetFieldAsInteger(sharp) != 0;
+                line.source = is_set(edge, source) ? edge.GetFieldAsInteger(source) : 0;
+                line.feature = is_set(edge, feature) ? edge.GetFieldAsInteger64(feature) : -1;
+                return line;
+            }
+        }
+        return std::nullopt;
+    }
+
+    int role;
+    int source;
+    int feature;
+    int sharp;
+
+  private:
+    static bool is_set(const OGRFeature& edge, int field) {
+        return field >= 0 && edge.IsFieldSetAndNotNull(field) != 0;
+    }
+};
 
 /// Reads the layers of one TIN into a TinFile.
 class TinFileReader {
@@ -31,8 +73,7 @@ class TinFileReader {
         if (OGRLayer* const vertices = source_.find_companion(faces_, "vertices")) {
             read_vertices(*vertices);
         }
-        OGRLayer* const edges = source_.find_companion(faces_, "constrained_edges");
-        if (edges != nullptr && marks_.empty()) {
+        if (OGRLayer* const edges = source_.find_companion(faces_, "constrained_edges")) {
             read_constrained_edges(*edges);
         }
         file_.vertices = table_.take();
@@ -48,6 +89,7 @@ class TinFileReader {
     void read_vertices(OGRLayer& layer);
     void read_constrained_edges(OGRLayer& layer);
     void add_marked_edges();
+    std::optional<std::uint32_t> number_line(const std::optional<LineOrigin>& line);
     // Leaves out the attributes that nobody looks at: half of the reading time.
     static void keep_fields(OGRLayer& layer, std::initializer_list<const char*> names);
 
@@ -57,6 +99,7 @@ class TinFileReader {
     TinFile file_;
     VertexTable table_;
     std::vector<unsigned char> marks_;  // one a face where the file has the field, else empty
+    std::map<std::tuple<LineRole, bool, std::int32_t, std::int64_t>, std::uint32_t> line_numbers_;
 };
 
 void TinFileReader::keep_fields(OGRLayer& layer, std::initializer_list<const char*> names) {
@@ -125,6 +168,7 @@ void TinFileReader::read_vertices(OGRLayer& layer) {
     const int steiner = definition.GetFieldIndex("steiner");
     const int source = definition.GetFieldIndex("source");
     const int feature_id = definition.GetFieldIndex("feature");
+    const int crossing = definition.GetFieldIndex("crossing");
     if (wkbFlatten(layer.GetGeomType()) != wkbPoint || steiner < 0) {
         return;  // somebody else's layer of that name
     }
@@ -142,7 +186,9 @@ void TinFileReader::read_vertices(OGRLayer& layer) {
         file_.is_steiner.resize(size);
         origins.source.resize(size);
         origins.feature.resize(size, -1);
+        file_.is_crossing.resize(size);
         file_.is_steiner[v] = feature->GetFieldAsInteger(steiner) != 0;
+        file_.is_crossing[v] = crossing >= 0 && feature->GetFieldAsInteger(crossing) != 0;
         if (source >= 0 && feature->IsFieldSetAndNotNull(source)) {
             origins.source[v] = feature->GetFieldAsInteger(source);
             has_source = true;
@@ -161,11 +207,16 @@ void TinFileReader::read_vertices(OGRLayer& layer) {
 }
 
 void TinFileReader::read_constrained_edges(OGRLayer& layer) {
+    const LineFields fields(*layer.GetLayerDefn());
+    if (!marks_.empty() && fields.role < 0) {
+        return;  // the faces say the same
+    }
     for (const auto& feature : layer) {
         const OGRGeometry* const geometry = feature->GetGeometryRef();
         if (geometry == nullptr || wkbFlatten(geometry->getGeometryType()) != wkbLineString) {
             continue;
         }
+        const std::optional<std::uint32_t> line_number = number_line(fields.read(*feature));
         const OGRLineString& line = *geometry->toLineString();
         for (int i = 0; i + 1 < line.getNumPoints(); ++i) {
             const auto a = table_.find({line.getX(i), line.getY(i), line.getZ(i)});
@@ -174,10 +225,28 @@ void TinFileReader::read_constrained_edges(OGRLayer& layer) {
                 throw InputError(source_.describe(layer) + ", feature " + std::to_string(feature->GetFID()) +
                                  ": an end is not a vertex of the faces");
             }
-            file_.constrained_edges.emplace_back(std::min(*a, *b), std::max(*a, *b));
+            const auto [first, second] = std::minmax(*a, *b);
+            file_.constrained_edges.emplace_back(first, second);
+            if (line_number) {
+                file_.line_edges.push_back({first, second, *line_number});
+            }
         }
     }
     std::sort(file_.constrained_edges.begin(), file_.constrained_edges.end());
+    std::sort(file_.line_edges.begin(), file_.line_edges.end());
+}
+
+std::optional<std::uint32_t> TinFileReader::number_line(const std::optional<LineOrigin>& line) {
+    if (!line) {
+        return std::nullopt;
+    }
+    const auto key = std::tuple(line->role, line->is_sharp, line->source, line->feature);
+    const auto [place, is_new] =
+        line_numbers_.try_emplace(key, static_cast<std::uint32_t>(file_.lines.size()));
+    if (is_new) {
+        file_.lines.push_back(*line);
+    }
+    return place->second;
 }
 
 // The marks count from the ring's first vertex, counter-clockwise; Shapefiles turn rings the other way.

@@ -24,7 +24,17 @@ struct TinFile {
     std::vector<std::int64_t> face_ids;  ///< feature id of each face
     /// Vertex pairs, the smaller first, sorted.
     std::vector<std::pair<std::uint32_t, std::uint32_t>> constrained_edges;
-    std::vector<bool> is_steiner;  ///< one a vertex where the file says it; else empty
+    std::vector<bool> is_steiner;   ///< one a vertex where the file says it; else empty
+    std::vector<bool> is_crossing;  ///< of lines; likewise
+    /// A line along an edge between two vertices, the smaller first.
+    struct LineEdge {
+        std::uint32_t a;
+        std::uint32_t b;
+        std::uint32_t line;  ///< index into `lines`
+        friend auto operator<=>(const LineEdge&, const LineEdge&) = default;
+    };
+    std::vector<LineEdge> line_edges;  ///< constrained edges of which the file says so; sorted
+    std::vector<LineOrigin> lines;     ///< the distinct ones that the file tells apart
     std::string layer;
     Crs crs;
     TinMetadata metadata;
@@ -43,7 +53,8 @@ bool is_tin(const Source& source);
 TinFile read_tin_file(const Source& source, const Progress& progress = {});
 
 /// Puts a file's faces on a lattice as a TIN, vertices in curve order, domain and constrained edges kept.
-/// `sample[v]` is the index in `file.vertices` that vertex v has there, or kNoSample for a Steiner vertex.
+/// `sample[v]` is the index in `file.vertices` that vertex v has there, or kNoSample for a Steiner vertex and
+/// kCrossing for one made where lines cross; `traces` number `file.lines`.
 /// Faces may turn either way in the file and are all counter-clockwise in the TIN.
 /// Throws InputError, naming the feature and a coordinate, when the faces are no surface (zero area, two
 /// elevations at one location, an edge with more than two faces); `tinwright check` lists all of them.

@@ -29,6 +29,7 @@ class TinMaker {
         orient_faces();
         link_faces();
         constrain_edges();
+        trace_lines();
         return std::move(tin_);
     }
 
@@ -37,6 +38,7 @@ class TinMaker {
     void orient_faces();
     void link_faces();
     void constrain_edges();
+    void trace_lines();
     [[noreturn]] void refuse_edges() const;
     [[nodiscard]] std::string feature(std::size_t face) const {
         return "layer " + io::quoted(file_.layer) + ", feature " + std::to_string(file_.face_ids[face]);
@@ -66,9 +68,10 @@ void TinMaker::number_vertices() {
         }
         if (!is_repeated) {
             const bool is_steiner = i < file_.is_steiner.size() && file_.is_steiner[i];
+            const bool is_crossing = i < file_.is_crossing.size() && file_.is_crossing[i];
             tin_.keys.push_back(keys[i]);
             tin_.z.push_back(p.z);
-            tin_.sample.push_back(is_steiner ? Tin::kNoSample : i);
+            tin_.sample.push_back(is_steiner ? Tin::kNoSample : is_crossing ? Tin::kCrossing : i);
         }
         vertex_of_[i] = static_cast<std::uint32_t>(tin_.keys.size() - 1);
     }
@@ -158,6 +161,16 @@ void TinMaker::constrain_edges() {
                          at(tin_.position({edge.first})).substr(3) + " to " +
                          at(tin_.position({edge.second})).substr(3) + " is no edge of a face");
     }
+}
+
+void TinMaker::trace_lines() {
+    tin_.traces.reserve(file_.line_edges.size());
+    for (const TinFile::LineEdge& edge : file_.line_edges) {
+        const auto [a, b] = std::minmax(vertex_of_[edge.a], vertex_of_[edge.b]);
+        tin_.traces.push_back({{a}, {b}, edge.line});
+    }
+    std::sort(tin_.traces.begin(), tin_.traces.end());
+    tin_.traces.erase(std::unique(tin_.traces.begin(), tin_.traces.end()), tin_.traces.end());
 }
 
 }  // namespace

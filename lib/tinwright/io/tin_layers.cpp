@@ -4,9 +4,14 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <tuple>
+#include <utility>
 
 namespace tinwright::io {
 namespace {
+
+constexpr const char* kBorderWord = "border";  // a constrained edge of the border that no line runs along
 
 // The corner that a face is written from: that of the smallest vertex.
 unsigned first_corner(const TriangleMesh::Face& face) {
@@ -45,6 +50,48 @@ Incline incline_of(const Tin& tin, const std::array<VertexId, 3>& v) {
 }
 
 int as_int(VertexId v) { return static_cast<int>(v.value); }
+
+// The first line along an edge, by source and feature.
+std::optional<LineOrigin> find_line(const Tin& tin, std::span<const LineOrigin> lines, VertexId a,
+                                    VertexId b) {
+    const auto first =
+        std::lower_bound(tin.traces.begin(), tin.traces.end(), std::pair(a, b),
+                         [](const LineTrace& trace, const std::pair<VertexId, VertexId>& edge) {
+                             return std::pair(trace.a, trace.b) < edge;
+                         });
+    std::optional<LineOrigin> found;
+    for (auto trace = first; trace != tin.traces.end() && trace->a == a && trace->b == b; ++trace) {
+        if (trace->line >= lines.size()) {
+            continue;
+        }
+        const LineOrigin& line = lines[trace->line];
+        if (!found || std::tie(line.source, line.feature) < std::tie(found->source, found->feature)) {
+            found = line;
+        }
+    }
+    return found;
+}
+
+// The fields `role`, `source`, `feature` and `sharp` of an edge.
+void set_line(TinLayer& edges, const std::optional<LineOrigin>& line, bool is_border) {
+    for (const std::size_t field : {4U, 5U, 6U, 7U}) {
+        edges.set_null(field);
+    }
+    if (!line) {
+        if (is_border) {
+            edges.set(4, std::string(kBorderWord));
+        }
+        return;
+    }
+    edges.set(4, std::string(role_word(line->role)));
+    if (line->source > 0) {
+        edges.set(5, line->source);
+    }
+    if (line->feature >= 0) {
+        edges.set(6, line->feature);
+    }
+    edges.set(7, line->is_sharp ? 1 : 0);
+}
 
 // Calls visit(half-edge) once for each edge of a terrain face, by slots; from the face with the lower slot.
 template <class Visit>
@@ -140,14 +187,18 @@ std::size_t write_surface(TinDataset& dataset, const std::string& layer, const T
     return surfaces.written();
 }
 
-std::size_t write_edges(TinDataset& dataset, const std::string& layer, const Tin& tin, bool constrained_only,
-                        const Tick& tick) {
-    constexpr std::array<TinField, 5> kFields = {{{"id", OFTInteger},
+std::size_t write_edges(TinDataset& dataset, const std::string& layer, const Tin& tin,
+                        std::span<const LineOrigin> lines, bool constrained_only, const Tick& tick) {
+    constexpr std::array<TinField, 9> kFields = {{{"id", OFTInteger},
                                                   {"a", OFTInteger},
                                                   {"b", OFTInteger},
                                                   {"border", OFTInteger},
+                                                  {"role", OFTString},
+                                                  {"source", OFTInteger},
+                                                  {"feature", OFTInteger64},
+                                                  {"sharp", OFTInteger},
                                                   {"constr", OFTInteger}}};
-    const std::span<const TinField> used = std::span(kFields).first(constrained_only ? 4 : 5);
+    const std::span<const TinField> used = std::span(kFields).first(constrained_only ? 8 : 9);
     TinLayer edges = dataset.add_layer(layer, wkbLineString25D, used, tin);
     edges.geometry<OGRLineString>().setNumPoints(2);
     for_each_edge(tin.mesh, [&](HalfEdgeId h) {
@@ -166,8 +217,10 @@ std::size_t write_edges(TinDataset& dataset, const std::string& layer, const Tin
         edges.set(1, as_int(a));
         edges.set(2, as_int(b));
         edges.set(3, tin.mesh.is_border(h) ? 1 : 0);
+        set_line(edges, constrained ? find_line(tin, lines, a, b) : std::nullopt,
+                 constrained && tin.mesh.is_border(h));
         if (!constrained_only) {
-            edges.set(4, constrained ? 1 : 0);
+            edges.set(8, constrained ? 1 : 0);
         }
         edges.write();
         tick();
@@ -177,8 +230,11 @@ std::size_t write_edges(TinDataset& dataset, const std::string& layer, const Tin
 
 std::size_t write_vertices(TinDataset& dataset, const std::string& layer, const Tin& tin,
                            const VertexOrigins& origins, const Tick& tick) {
-    constexpr std::array<TinField, 4> kFields = {
-        {{"id", OFTInteger}, {"steiner", OFTInteger}, {"source", OFTInteger}, {"feature", OFTInteger64}}};
+    constexpr std::array<TinField, 5> kFields = {{{"id", OFTInteger},
+                                                  {"steiner", OFTInteger},
+                                                  {"source", OFTInteger},
+                                                  {"feature", OFTInteger64},
+                                                  {"crossing", OFTInteger}}};
     TinLayer vertices = dataset.add_layer(layer, wkbPoint25D, kFields, tin);
     for (std::uint32_t v = 0; v < tin.vertex_count(); ++v) {
         const Point3 p = tin.position({v});
@@ -198,10 +254,15 @@ std::size_t write_vertices(TinDataset& dataset, const std::string& layer, const 
         } else {
             vertices.set_null(3);
         }
+        vertices.set(4, tin.sample[v] == Tin::kCrossing ? 1 : 0);
         vertices.write();
         tick();
     }
     return vertices.written();
+}
+
+const char* role_word(LineRole role) {
+    return role == LineRole::Breakline ? "breakline" : role == LineRole::Boundary ? "boundary" : "hole";
 }
 
 EdgeCounts count_edges(const TriangleMesh& mesh) {

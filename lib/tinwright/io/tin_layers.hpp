@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <span>
 
 #include "tinwright/io/tin_dataset.hpp"
 
@@ -14,11 +15,15 @@ using Tick = std::function<void()>;
 
 std::size_t write_faces(TinDataset& dataset, const std::string& layer, const Tin& tin, const Tick& tick);
 std::size_t write_surface(TinDataset& dataset, const std::string& layer, const Tin& tin, const Tick& tick);
-/// All edges of terrain faces, or the constrained ones only.
-std::size_t write_edges(TinDataset& dataset, const std::string& layer, const Tin& tin, bool constrained_only,
-                        const Tick& tick);
+/// All edges of terrain faces, or the constrained ones only. Of several lines along an edge the first by
+/// source and feature is told.
+std::size_t write_edges(TinDataset& dataset, const std::string& layer, const Tin& tin,
+                        std::span<const LineOrigin> lines, bool constrained_only, const Tick& tick);
 std::size_t write_vertices(TinDataset& dataset, const std::string& layer, const Tin& tin,
                            const VertexOrigins& origins, const Tick& tick);
+
+/// The word for a role in the field `role`.
+const char* role_word(LineRole role);
 
 /// Edges of terrain faces, and how many of them are constrained. O(slots).
 struct EdgeCounts {

@@ -86,7 +86,7 @@ WrittenTin write_dataset(const Tin& tin, const Crs& crs, const TinDriver& driver
     written.layers.push_back(layer);
     switch (options.geometry) {
         case Geometry::Edges:
-            written.features = write_edges(dataset, layer, tin, false, tick);
+            written.features = write_edges(dataset, layer, tin, options.lines, false, tick);
             break;
         case Geometry::Vertices:
             written.features = write_vertices(dataset, layer, tin, options.origins, tick);
@@ -101,7 +101,7 @@ WrittenTin write_dataset(const Tin& tin, const Crs& crs, const TinDriver& driver
     const bool is_surface = options.geometry == Geometry::Polygon || options.geometry == Geometry::Tin;
     if (driver.has_layers && is_surface) {
         if (count_edges(tin.mesh).constrained > 0) {
-            write_edges(dataset, "constrained_edges", tin, true, tick);
+            write_edges(dataset, "constrained_edges", tin, options.lines, true, tick);
             written.layers.emplace_back("constrained_edges");
         }
         write_vertices(dataset, "vertices", tin, options.origins, tick);
@@ -193,6 +193,7 @@ Kept probe(const Tin& tin, const Crs& crs, const TinDriver& driver, const std::s
     WriteTinOptions quiet = options;
     quiet.progress = nullptr;
     quiet.origins = {};
+    quiet.lines = {};
     Kept kept;
     const GdalMessages messages;
     VSIMkdir(folder.c_str(), 0755);

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "tinwright/breaklines/breakline.hpp"
 #include "tinwright/geometry/progress.hpp"
 #include "tinwright/io/crs.hpp"
 #include "tinwright/mesh/tin.hpp"
@@ -17,6 +18,15 @@ namespace tinwright::io {
 struct VertexOrigins {
     std::vector<std::int32_t> source;   ///< one a vertex, from 1; empty: not kept
     std::vector<std::int64_t> feature;  ///< one a vertex, -1: not kept; empty: not kept
+};
+
+/// A line that constrained edges are part of, as the file keeps it.
+struct LineOrigin {
+    LineRole role = LineRole::Breakline;
+    bool is_sharp = true;
+    std::int32_t source = 0;    ///< from 1, numbered with the vertices' sources; 0: not kept
+    std::int64_t feature = -1;  ///< -1: not kept
+    friend bool operator==(const LineOrigin&, const LineOrigin&) = default;
 };
 
 /// What a TIN file says about itself. Keys are fixed in docs/formats.md; TINWRIGHT_VERTICES and
@@ -33,6 +43,8 @@ struct WriteTinOptions {
     bool overwrite = false;
     TinMetadata metadata;
     VertexOrigins origins;
+    /// Of each line that `Tin::traces` number; nothing is written of lines beyond its end.
+    std::vector<LineOrigin> lines;
     Progress progress;
 };
 
