@@ -73,14 +73,13 @@ class Noding {
 
   private:
     void round(const SnappedLines& snapped) {
-        const std::vector<SegmentCrossing> crossings = find_crossings(network_);
         std::vector<std::uint32_t> led;
         for (const std::uint32_t point : snapped.led_from) {
             if (network_.segment_at[point] != kNoSegment) {
                 led.push_back(network_.segment_at[point]);
             }
         }
-        rounded_ = round_segments(network_, crossings, led);
+        rounded_ = round_segments(network_, find_crossings(network_), led);
         out_.is_rounded = rounded_.is_rounded;
     }
 

@@ -1,6 +1,8 @@
 #include "tinwright/breaklines/segment_crossings.hpp"
 
 #include <algorithm>
+#include <atomic>
+#include <cstddef>
 
 #include <tbb/parallel_for.h>
 
@@ -17,22 +19,27 @@ double half_perimeter(const KeyBox& box) { return (box.high.x - box.low.x) + (bo
 class CrossingSearch {
   public:
     explicit CrossingSearch(const LineNetwork& network)
-        : network_(network), boxes_(boxes_of(network)), tree_(boxes_) {}
+        : network_(network), boxes_(boxes_of(network)), tree_(boxes_), is_rounded_(boxes_.size()) {}
 
-    std::vector<SegmentCrossing> find_all() const {
+    SegmentCrossings find_all() {
         const std::size_t count = tree_.order().size();
-        std::vector<std::vector<SegmentCrossing>> found((count + kBlock - 1) / kBlock);
+        std::vector<std::vector<Key2>> found((count + kBlock - 1) / kBlock);
         tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t block) {
             const std::size_t end = std::min(count, (block + 1) * kBlock);
             for (std::size_t i = block * kBlock; i < end; ++i) {
                 find_with(tree_.order()[i], found[block]);
             }
         });
-        std::vector<SegmentCrossing> all;
-        for (const std::vector<SegmentCrossing>& part : found) {
-            all.insert(all.end(), part.begin(), part.end());
+        SegmentCrossings crossings;
+        for (const std::vector<Key2>& part : found) {
+            crossings.keys.insert(crossings.keys.end(), part.begin(), part.end());
         }
-        return all;
+        for (std::uint32_t s = 0; s < is_rounded_.size(); ++s) {
+            if (is_rounded_[s] != 0) {
+                crossings.rounded.push_back(s);
+            }
+        }
+        return crossings;
     }
 
   private:
@@ -46,12 +53,13 @@ class CrossingSearch {
         return boxes;
     }
 
-    /// Crossings of a segment with those of smaller number.
-    void find_with(std::uint32_t segment, std::vector<SegmentCrossing>& found) const {
+    /// Crossings of a segment with those of smaller number; many of them may be in one place.
+    void find_with(std::uint32_t segment, std::vector<Key2>& found) {
         const Key2 a = network_.a(segment);
         const Key2 b = network_.b(segment);
         const KeyBox& box = boxes_[segment];
         const double size = half_perimeter(box);
+        const std::size_t first = found.size();
         tree_.visit_meeting(
             box,
             // Only boxes smaller than the segment's are worth comparing with its line.
@@ -59,21 +67,32 @@ class CrossingSearch {
             [&](std::uint32_t other) {
                 if (other < segment && do_cross(a, b, network_.a(other), network_.b(other))) {
                     const RoundedCrossing at = round_crossing(a, b, network_.a(other), network_.b(other));
-                    found.push_back({at.key, other, segment, at.is_exact});
+                    found.push_back(at.key);
+                    if (!at.is_exact) {
+                        mark_rounded(segment);
+                        mark_rounded(other);
+                    }
                 }
                 return true;
             });
+        const auto own = found.begin() + static_cast<std::ptrdiff_t>(first);
+        std::sort(own, found.end(), precedes);
+        found.erase(std::unique(own, found.end()), found.end());
+    }
+
+    /// From any task: all of them write the same.
+    void mark_rounded(std::uint32_t segment) {
+        std::atomic_ref(is_rounded_[segment]).store(1, std::memory_order_relaxed);
     }
 
     const LineNetwork& network_;
     std::vector<KeyBox> boxes_;
     BoxTree tree_;
+    std::vector<char> is_rounded_;
 };
 
 }  // namespace
 
-std::vector<SegmentCrossing> find_crossings(const LineNetwork& network) {
-    return CrossingSearch(network).find_all();
-}
+SegmentCrossings find_crossings(const LineNetwork& network) { return CrossingSearch(network).find_all(); }
 
 }  // namespace tinwright

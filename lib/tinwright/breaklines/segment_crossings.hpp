@@ -9,17 +9,16 @@
 
 namespace tinwright {
 
-/// Two segments that cross in a point that is an end of neither.
-struct SegmentCrossing {
-    Key2 key;         ///< the lattice point nearest to it
-    std::uint32_t a;  ///< indices of the segments, a < b
-    std::uint32_t b;
-    bool is_exact;  ///< whether they cross in that very point
+/// Where segments cross in points that are ends of neither.
+struct SegmentCrossings {
+    /// The lattice points nearest to them, one at least for each; in an order that follows from the network.
+    std::vector<Key2> keys;
+    /// Segments with a crossing that is not on the lattice, ascending.
+    std::vector<std::uint32_t> rounded;
 };
 
-/// All crossings, each once, in an order that follows from the network alone. Exact.
-/// O((n + p) log n) for p pairs of segments whose boxes meet; parallel inside the caller's task arena.
-std::vector<SegmentCrossing> find_crossings(const LineNetwork& network);
+/// Exact. O((n + p) log n) for p pairs of segments whose boxes meet; parallel inside the caller's task arena.
+SegmentCrossings find_crossings(const LineNetwork& network);
 
 }  // namespace tinwright
 

@@ -14,15 +14,10 @@ namespace tinwright {
 namespace {
 
 /// Sites and crossings, each location once; tells at which of them each site is.
-std::vector<Key2> merge_vertices(std::span<const Key2> sites, std::span<const SegmentCrossing> crossings,
+std::vector<Key2> merge_vertices(std::span<const Key2> sites, std::span<const Key2> crossings,
                                  std::vector<std::uint32_t>& of_site) {
-    std::vector<Key2> made;
-    made.reserve(crossings.size());
-    for (const SegmentCrossing& crossing : crossings) {
-        made.push_back(crossing.key);
-    }
     std::vector<Key2> vertices;
-    vertices.reserve(sites.size() + made.size());
+    vertices.reserve(sites.size() + crossings.size());
     of_site.reserve(sites.size());
     const auto add = [&](Key2 key) {
         if (vertices.empty() || vertices.back() != key) {
@@ -36,9 +31,9 @@ std::vector<Key2> merge_vertices(std::span<const Key2> sites, std::span<const Se
             of_site.push_back(static_cast<std::uint32_t>(vertices.size() - 1));
         }
     };
-    for (const std::uint32_t i : sort_along_curve(made)) {
-        add_sites_until([&](Key2 site) { return precedes_on_curve(made[i], site); });
-        add(made[i]);
+    for (const std::uint32_t i : sort_along_curve(crossings)) {
+        add_sites_until([&](Key2 site) { return precedes_on_curve(crossings[i], site); });
+        add(crossings[i]);
     }
     add_sites_until([](Key2 /*site*/) { return false; });
     return vertices;
@@ -46,7 +41,7 @@ std::vector<Key2> merge_vertices(std::span<const Key2> sites, std::span<const Se
 
 class Rounding {
   public:
-    Rounding(const LineNetwork& network, std::span<const SegmentCrossing> crossings) {
+    Rounding(const LineNetwork& network, std::span<const Key2> crossings) {
         out_.vertices = merge_vertices(network.sites, crossings, out_.of_site);
         segments_.reserve(network.segments.size());
         for (const LineSegment& segment : network.segments) {
@@ -227,16 +222,12 @@ class Rounding {
 
 }  // namespace
 
-RoundedSegments round_segments(const LineNetwork& network, std::span<const SegmentCrossing> crossings,
+RoundedSegments round_segments(const LineNetwork& network, const SegmentCrossings& crossings,
                                std::span<const std::uint32_t> led) {
-    Rounding rounding(network, crossings);
-    for (const std::uint32_t segment : led) {
-        rounding.lead(segment);
-    }
-    for (const SegmentCrossing& crossing : crossings) {
-        if (!crossing.is_exact) {
-            rounding.lead(crossing.a);
-            rounding.lead(crossing.b);
+    Rounding rounding(network, crossings.keys);
+    for (const std::span<const std::uint32_t> segments : {led, std::span(crossings.rounded)}) {
+        for (const std::uint32_t segment : segments) {
+            rounding.lead(segment);
         }
     }
     return std::move(rounding).finish();

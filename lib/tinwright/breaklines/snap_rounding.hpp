@@ -39,7 +39,7 @@ struct RoundedSegments {
 /// and so does the part. Hence only squares that led segments pass off their centre have to be looked at.
 ///
 /// O((n + k) log n) for n segments and k hot points in practice; parallel inside the caller's task arena.
-RoundedSegments round_segments(const LineNetwork& network, std::span<const SegmentCrossing> crossings,
+RoundedSegments round_segments(const LineNetwork& network, const SegmentCrossings& crossings,
                                std::span<const std::uint32_t> led = {});
 
 }  // namespace tinwright
