@@ -169,6 +169,27 @@ JsonValue conflict_json(const LineConflict& conflict, const CheckedLines& checke
     return json.set("z_a", number_json(conflict.z_a)).set("z_b", number_json(conflict.z_b));
 }
 
+void set_conflicts(JsonValue& json, const LineCheckReport& report, const CheckedLines& checked) {
+    const ConflictCounts all = count_conflicts(report.conflicts);
+    JsonValue counts = JsonValue::object();
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        counts.set(conflict_key(static_cast<Kind>(i)), all[i]);
+    }
+    JsonValue conflicts = JsonValue::array();
+    for_each_listed(
+        report, [&](const LineConflict& conflict) { conflicts.append(conflict_json(conflict, checked)); });
+    json.set("counts", counts).set("conflicts", conflicts);
+}
+
+/// "2 crossings, 1 that cannot be read"; empty when there is nothing.
+std::string found_text(const LineCheckReport& report, std::size_t unusable) {
+    std::string text = conflict_counts_text(count_conflicts(report.conflicts));
+    if (unusable > 0) {
+        text += (text.empty() ? "" : ", ") + std::to_string(unusable) + " that cannot be read";
+    }
+    return text;
+}
+
 }  // namespace
 
 std::size_t CheckedLines::unusable() const {
@@ -196,8 +217,9 @@ std::string conflict_lines(const CheckedLines& checked) {
                          [&](const io::LineSlice& candidate) { return candidate.source == fault.source; });
         list += names.of_feature(slice->file, fault.layer, fault.feature) + " " + fault.what + "\n";
     }
-    for_each_listed(checked.report, [&](const LineConflict& conflict) { list += text_of(conflict, names); });
-    const std::string more = conflict_counts_text(unlisted(checked.report));
+    for_each_listed(checked.remaining(),
+                    [&](const LineConflict& conflict) { list += text_of(conflict, names); });
+    const std::string more = conflict_counts_text(unlisted(checked.remaining()));
     return more.empty() ? list : list + "and " + more + " more\n";
 }
 
@@ -209,31 +231,29 @@ std::string lines_verdict(const CheckedLines& checked) {
     if (!checked.samples.slices.empty()) {
         what += (what.empty() ? "" : " and ") + count_text(checked.samples.points.size(), "sample");
     }
-    if (checked.found() == 0) {
-        return what + ": clean";
-    }
-    std::string text = conflict_counts_text(count_conflicts(checked.report.conflicts));
-    if (checked.unusable() > 0) {
-        text += (text.empty() ? "" : ", ") + std::to_string(checked.unusable()) + " that cannot be read";
-    }
-    return what + ": " + text;
+    const std::string found = found_text(checked.report, checked.unusable());
+    return what + ": " + (found.empty() ? "clean" : found);
+}
+
+std::string repair_verdict(const CheckedLines& checked) {
+    const std::string found = found_text(checked.remaining(), checked.unusable());
+    return "repaired, z where lines meet: " + checked.crossing_z +
+           "; left: " + (found.empty() ? "nothing" : found);
 }
 
 JsonValue lines_json(const CheckedLines& checked) {
-    const ConflictCounts all = count_conflicts(checked.report.conflicts);
-    JsonValue counts = JsonValue::object();
-    for (std::size_t i = 0; i < all.size(); ++i) {
-        counts.set(conflict_key(static_cast<Kind>(i)), all[i]);
-    }
-    JsonValue conflicts = JsonValue::array();
-    for_each_listed(checked.report, [&](const LineConflict& conflict) {
-        conflicts.append(conflict_json(conflict, checked));
-    });
     JsonValue json = JsonValue::object();
     json.set("lines", checked.lines.lines.size()).set("samples", checked.samples.points.size());
     json.set("unusable", checked.unusable());
     json.set("snap", checked.report.snap).set("dangling", checked.report.dangling);
-    return json.set("counts", counts).set("conflicts", conflicts);
+    set_conflicts(json, checked.report, checked);
+    if (checked.left) {
+        JsonValue repair = JsonValue::object();
+        repair.set("crossing_z", checked.crossing_z);
+        set_conflicts(repair, *checked.left, checked);
+        json.set("repair", repair);
+    }
+    return json;
 }
 
 }  // namespace tinwright::tools

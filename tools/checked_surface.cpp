@@ -2,11 +2,13 @@
 
 #include <array>
 #include <numeric>
+#include <utility>
 
 #include <ogrsf_frmts.h>
 
 #include "tinwright/geometry/decimal.hpp"
 #include "tinwright/io/atomic_output.hpp"
+#include "tinwright/io/read_tin.hpp"
 #include "tinwright/io/tin_dataset.hpp"
 #include "tinwright/io/tin_drivers.hpp"
 
@@ -52,7 +54,41 @@ JsonValue violation_json(const CheckedSurface& surface, const FaceViolation& vio
     return json.set("location", JsonValue::array_of({at.x, at.y, at.z}));
 }
 
+/// Formats differ in the way round that a ring has (Shapefiles: clockwise), so it is the faces unlike most
+/// others that are wrong.
+FaceCheckReport check_either_way_round(io::TinFile& file) {
+    FaceCheckReport report = check_faces(file.vertices, file.corners);
+    if (report.count(FaceDefect::Clockwise) == 0) {
+        return report;
+    }
+    for (std::size_t i = 0; i + 2 < file.corners.size(); i += 3) {
+        std::swap(file.corners[i + 1], file.corners[i + 2]);
+    }
+    FaceCheckReport turned = check_faces(file.vertices, file.corners);
+    return turned.count(FaceDefect::Clockwise) < report.count(FaceDefect::Clockwise) ? turned : report;
+}
+
 }  // namespace
+
+CheckedSurface check_surface(const io::Source& source, const OptimalityOptions& optimality,
+                             ProgressLine& progress, double begin, double end) {
+    // Proving takes longer than all the rest.
+    const double read = begin + (end - begin) * (optimality.criterion ? 0.1 : 0.5);
+    const double audited = begin + (end - begin) * (optimality.criterion ? 0.2 : 1.0);
+    io::TinFile file = io::read_tin_file(source, progress.stage(begin, read));
+    CheckedSurface surface;
+    surface.file = source.path;
+    surface.layer = file.layer;
+    surface.crs = file.crs;
+    surface.vertices = file.vertices.size();
+    surface.report = check_either_way_round(file);
+    report_progress(progress.stage(read, audited), 1);
+    if (optimality.criterion && surface.report.is_clean()) {
+        surface.optimality = check_optimality(file, optimality, progress.stage(audited, end));
+    }
+    surface.face_ids = std::move(file.face_ids);
+    return surface;
+}
 
 std::size_t CheckedSurface::violation_count() const {
     return std::accumulate(report.counts.begin(), report.counts.end(), std::size_t{0});
@@ -83,50 +119,43 @@ std::string violation_lines(const CheckedSurface& surface) {
     return lines;
 }
 
-std::string verdict_line(const CheckedSurface& surface) {
+std::vector<std::string> verdicts(const CheckedSurface& surface, const OptimalityOptions& optimality) {
     const std::size_t count = surface.violation_count();
     const std::string faces =
         std::to_string(surface.face_ids.size()) + (surface.face_ids.size() == 1 ? " face" : " faces");
-    return surface.file + ": " +
-           (count == 0 ? "clean, " + faces
-                       : std::to_string(count) + (count == 1 ? " violation in " : " violations in ") + faces);
+    std::vector<std::string> list{
+        surface.file + ": " +
+        (count == 0 ? "clean, " + faces
+                    : std::to_string(count) + (count == 1 ? " violation in " : " violations in ") + faces)};
+    if (surface.optimality) {
+        list.push_back(surface.file + ": " + optimality_verdict(*surface.optimality));
+    } else if (optimality.criterion) {
+        list.push_back(surface.file + ": " + optimality.criterion_text +
+                       ": not examined, since the faces are no surface");
+    }
+    return list;
 }
 
-JsonValue checked_json(std::span<const CheckedSurface> surfaces, bool is_proving,
-                       const std::vector<std::string>& outputs) {
-    JsonValue list = JsonValue::array();
-    std::size_t total = 0;
-    std::size_t improvable = 0;
-    for (const CheckedSurface& surface : surfaces) {
-        JsonValue counts = JsonValue::object();
-        for (std::size_t i = 0; i < kFaceDefects; ++i) {
-            counts.set(key_of(static_cast<FaceDefect>(i)), surface.report.counts[i]);
-        }
-        JsonValue violations = JsonValue::array();
-        for (const FaceViolation& violation : surface.report.violations) {
-            violations.append(violation_json(surface, violation));
-        }
-        total += surface.violation_count();
-        improvable += surface.improvable();
-        JsonValue entry = JsonValue::object();
-        entry.set("file", surface.file)
-            .set("layer", surface.layer)
-            .set("vertices", surface.vertices)
-            .set("faces", surface.face_ids.size())
-            .set("counts", counts)
-            .set("violations", violations);
-        if (surface.optimality) {
-            entry.set("optimality", optimality_json(*surface.optimality));
-        }
-        list.append(entry);
+JsonValue surface_json(const CheckedSurface& surface) {
+    JsonValue counts = JsonValue::object();
+    for (std::size_t i = 0; i < kFaceDefects; ++i) {
+        counts.set(key_of(static_cast<FaceDefect>(i)), surface.report.counts[i]);
+    }
+    JsonValue violations = JsonValue::array();
+    for (const FaceViolation& violation : surface.report.violations) {
+        violations.append(violation_json(surface, violation));
     }
     JsonValue json = JsonValue::object();
-    json.set("version", TINWRIGHT_VERSION).set("command", "check").set("clean", total == 0);
-    json.set("violations", total);
-    if (is_proving) {
-        json.set("improvable", improvable);
+    json.set("file", surface.file)
+        .set("layer", surface.layer)
+        .set("vertices", surface.vertices)
+        .set("faces", surface.face_ids.size())
+        .set("counts", counts)
+        .set("violations", violations);
+    if (surface.optimality) {
+        json.set("optimality", optimality_json(*surface.optimality));
     }
-    return json.set("surfaces", list).set("outputs", JsonValue::array_of(outputs));
+    return json;
 }
 
 void check_violation_target(const std::string& target, const ViolationLayerOptions& options) {

@@ -9,10 +9,12 @@
 #include <vector>
 
 #include "tinwright/io/crs.hpp"
+#include "tinwright/io/source.hpp"
 #include "tinwright/mesh/face_check.hpp"
 
 #include "json_value.hpp"
 #include "optimality_check.hpp"
+#include "progress.hpp"
 
 namespace tinwright::tools {
 
@@ -31,13 +33,17 @@ struct CheckedSurface {
     [[nodiscard]] std::size_t improvable() const { return optimality ? optimality->improvable() : 0; }
 };
 
+/// Reads and audits a TIN file, and proves it optimal again where `optimality` asks for that. `begin`, `end`:
+/// its share of the progress. Throws as `io::read_tin_file` does.
+CheckedSurface check_surface(const io::Source& source, const OptimalityOptions& optimality,
+                             ProgressLine& progress, double begin, double end);
+
 /// One line a listed violation or improvable face.
 std::string violation_lines(const CheckedSurface& surface);
-/// "file: 3 violations in 120 faces".
-std::string verdict_line(const CheckedSurface& surface);
-/// `is_proving`: a criterion was asked for.
-JsonValue checked_json(std::span<const CheckedSurface> surfaces, bool is_proving,
-                       const std::vector<std::string>& outputs);
+/// "file: 3 violations in 120 faces", and what came of a proof where `optimality` asked for one.
+std::vector<std::string> verdicts(const CheckedSurface& surface, const OptimalityOptions& optimality);
+/// An entry of the key `surfaces` of the report.
+JsonValue surface_json(const CheckedSurface& surface);
 
 struct ViolationLayerOptions {
     std::string driver;  ///< empty: from the file's extension

@@ -1,108 +1,307 @@
 #include "command_check.hpp"
 
+#include <algorithm>
+#include <iterator>
+#include <set>
+#include <tuple>
 #include <utility>
 
 #include "tinwright/geometry/error.hpp"
+#include "tinwright/io/gdal_session.hpp"
 #include "tinwright/io/read_tin.hpp"
 
+#include "checked_lines.hpp"
 #include "checked_surface.hpp"
+#include "conflict_layer.hpp"
 #include "console.hpp"
-#include "interrupt.hpp"
+#include "repair.hpp"
 
 namespace tinwright::tools {
 
 namespace {
 
-/// Formats differ in the way round that a ring has (Shapefiles: clockwise), so it is the faces unlike most
-/// others that are wrong.
-FaceCheckReport check_either_way_round(io::TinFile& file) {
-    FaceCheckReport report = check_faces(file.vertices, file.corners);
-    if (report.count(FaceDefect::Clockwise) == 0) {
-        return report;
+constexpr double kTinShare = 0.5;  // of the progress, where there are TINs and lines
+
+/// What was done about a conflict by repairing; what is left is in another list.
+LineConflict::Action repair_action(LineConflict::Kind kind) {
+    using Kind = LineConflict::Kind;
+    using Action = LineConflict::Action;
+    switch (kind) {
+        case Kind::Crossing:
+        case Kind::SelfCrossing:
+        case Kind::Touch:
+            return Action::Noded;
+        case Kind::Overlap:
+        case Kind::Duplicate:
+        case Kind::ZeroLength:
+            return Action::Merged;
+        case Kind::Spike:
+            return Action::Dropped;
+        case Kind::NearMiss:
+        case Kind::OpenRing:
+            return Action::Snapped;
+        case Kind::ElevationClash:
+        case Kind::MissingZ:
+            return Action::Chosen;
+        default:
+            return Action::Reported;
     }
-    for (std::size_t i = 0; i + 2 < file.corners.size(); i += 3) {
-        std::swap(file.corners[i + 1], file.corners[i + 2]);
-    }
-    FaceCheckReport turned = check_faces(file.vertices, file.corners);
-    return turned.count(FaceDefect::Clockwise) < report.count(FaceDefect::Clockwise) ? turned : report;
 }
 
-CheckedSurface check_surface(const io::Source& source, const OptimalityOptions& optimality, Console& console,
-                             double begin, double end) {
-    // Proving takes longer than all the rest.
-    const double read = begin + (end - begin) * (optimality.criterion ? 0.1 : 0.5);
-    const double audited = begin + (end - begin) * (optimality.criterion ? 0.2 : 1.0);
-    io::TinFile file = io::read_tin_file(source, console.progress().stage(begin, read));
-    CheckedSurface surface;
-    surface.file = source.path;
-    surface.layer = file.layer;
-    surface.crs = file.crs;
-    surface.vertices = file.vertices.size();
-    surface.report = check_either_way_round(file);
-    report_progress(console.progress().stage(read, audited), 1);
-    if (optimality.criterion && surface.report.is_clean()) {
-        surface.optimality = check_optimality(file, optimality, console.progress().stage(audited, end));
+/// Says of each conflict what the repair did; a conflict that is still there was only reported.
+void note_actions(std::vector<LineConflict>& found, const std::vector<LineConflict>& left) {
+    using Place = std::tuple<LineConflict::Kind, double, double>;
+    const auto place_of = [](const LineConflict& conflict) {
+        return Place(conflict.kind, conflict.location.x, conflict.location.y);
+    };
+    std::set<Place> still_there;
+    std::transform(left.begin(), left.end(), std::inserter(still_there, still_there.end()), place_of);
+    for (LineConflict& conflict : found) {
+        conflict.action = still_there.contains(place_of(conflict)) ? LineConflict::Action::Reported
+                                                                   : repair_action(conflict.kind);
     }
-    surface.face_ids = std::move(file.face_ids);
-    return surface;
+}
+
+JsonValue check_json(const std::vector<CheckedSurface>& surfaces, bool is_proving, const CheckedLines* lines,
+                     const std::vector<std::string>& outputs) {
+    JsonValue list = JsonValue::array();
+    std::size_t violations = 0;
+    std::size_t improvable = 0;
+    for (const CheckedSurface& surface : surfaces) {
+        list.append(surface_json(surface));
+        violations += surface.violation_count();
+        improvable += surface.improvable();
+    }
+    JsonValue json = JsonValue::object();
+    json.set("version", TINWRIGHT_VERSION).set("command", "check");
+    json.set("clean", violations == 0 && (lines == nullptr || lines->found() == 0));
+    json.set("violations", violations);
+    if (is_proving) {
+        json.set("improvable", improvable);
+    }
+    if (lines != nullptr) {
+        json.set("conflicts", lines->remaining().conflicts.size());
+    }
+    json.set("surfaces", list);
+    if (lines != nullptr) {
+        json.set("lines", lines_json(*lines));
+    }
+    return json.set("outputs", JsonValue::array_of(outputs));
 }
 
 }  // namespace
 
 void CommandCheck::setup(const std::vector<std::string>& arguments) {
     const auto parser =
-        make_parser("check", "Audits TIN files; lists what keeps them from being surfaces, or optimal.",
-                    "SURFACE... [-o FILE] [options]",
-                    {"tinwright check tin.gpkg", "tinwright check tin.shp -o violations.gpkg",
-                     "tinwright check tin.gpkg --criterion slope"});
+        make_parser("check", "Audits TINs, lines and samples; lists what is wrong, and repairs lines.",
+                    "SOURCE... [-o FILE] [options]",
+                    {"tinwright check tin.gpkg --criterion slope",
+                     "tinwright check survey.csv roads.gpkg --boundary site.gpkg -o conflicts.gpkg",
+                     "tinwright check roads.gpkg --repair -o clean"});
     sources.add_to(*parser);
+    lines.add_sources_to(*parser);
+    audit.add_to(*parser);
+    crs.add_to(*parser);
     optimality.add_to(*parser);
-    output.add_to(*parser, "write the violations as a point layer",
+    output.add_to(*parser, "write what is found as points; the folder of --repair",
                   "output driver (default: from the extension)");
     talk.add_to(*parser);
     parse_options(*parser, arguments);
 
-    sources.finish();
+    check_key_values("--oo", sources.open_options);
+    lines.finish(sources.open_options);
+    if (!sources.texts.empty() || lines.sources.empty()) {
+        sources.finish();
+    }
+    audit.finish();
     optimality.finish();
+    if (audit.repair && output.path.empty()) {
+        throw UsageError("--repair needs a folder for the repaired lines: name it with -o FOLDER");
+    }
+    if (audit.repair && !output.driver.empty()) {
+        throw UsageError("--of does not go with --repair, which writes GeoPackages");
+    }
     output.finish(false);
     talk.finish(output.is_stdout());
 }
 
-Outcome CommandCheck::run() {
-    Console console("check", talk);
-    refuse_to_overwrite_sources(output.path, sources.sources);
-    const ViolationLayerOptions layer_options{output.driver, output.overwrite};
-    if (!output.path.empty()) {
-        check_violation_target(output.path, layer_options);
-        check_output_place(output.path, output.overwrite);
-    }
-    std::vector<CheckedSurface> surfaces;
-    std::size_t found = 0;
-    const double share = 1.0 / static_cast<double>(sources.sources.size());
+CommandCheck::Sorted CommandCheck::sort_sources() const {
+    Sorted sorted;
     for (const io::Source& source : sources.sources) {
-        const double begin = share * static_cast<double>(surfaces.size());
-        surfaces.push_back(check_surface(source, optimality, console, begin, begin + share));
-        found += surfaces.back().violation_count() + surfaces.back().improvable();
-    }
-    console.progress().finish();
-    std::vector<std::string> outputs;
-    if (!output.path.empty()) {
-        write_violations(surfaces, output.path, layer_options);
-        outputs.push_back(output.path);
-    }
-    std::string list;
-    for (const CheckedSurface& surface : surfaces) {
-        list += output.is_stdout() ? std::string() : violation_lines(surface);
-        console.say("tinwright check: " + verdict_line(surface) + "\n");
-        if (surface.optimality) {
-            console.say("tinwright check: " + surface.file + ": " + optimality_verdict(*surface.optimality) +
-                        "\n");
-        } else if (optimality.criterion) {
-            console.say("tinwright check: " + surface.file + ": " + optimality.criterion_text +
-                        ": not examined, since the faces are no surface\n");
+        if (io::is_tin(source)) {
+            sorted.tins.push_back(source);
+        } else if (io::has_lines(source)) {
+            sorted.lines.push_back({source, LineRole::Breakline});
+        } else {
+            sorted.samples.push_back(source);
         }
     }
-    print_result(talk.json ? checked_json(surfaces, optimality.criterion.has_value(), outputs).text() : list);
+    sorted.lines.insert(sorted.lines.end(), lines.sources.begin(), lines.sources.end());
+    if (audit.repair && sorted.lines.empty()) {
+        throw UsageError("--repair is for lines, and none of the sources has any");
+    }
+    if (optimality.criterion && sorted.tins.empty()) {
+        throw UsageError("--criterion is for TINs, and none of the sources is one");
+    }
+    return sorted;
+}
+
+std::vector<io::Source> CommandCheck::all_sources() const {
+    std::vector<io::Source> all = sources.sources;
+    for (const io::LineSource& source : lines.sources) {
+        all.push_back(source.source);
+    }
+    return all;
+}
+
+CommandCheck::Targets CommandCheck::choose_targets(const Sorted& sorted) const {
+    Targets targets;
+    targets.conflicts = audit.conflicts;
+    const bool has_lines = !sorted.lines.empty() || !sorted.samples.empty();
+    if (audit.repair) {
+        targets.folder = output.path;
+    } else if (!output.path.empty() && sorted.tins.empty() && audit.conflicts.empty()) {
+        targets.conflicts = output.path;
+    } else if (!output.path.empty() && sorted.tins.empty()) {
+        throw UsageError("-o and --conflicts both name a file for the conflicts: give one of them");
+    } else if (!output.path.empty() && has_lines && audit.conflicts.empty()) {
+        throw UsageError("-o " + io::quoted(output.path) +
+                         " is for what is wrong with TINs: give --conflicts FILE for lines and samples too");
+    } else {
+        targets.violations = output.path;
+    }
+    if (!targets.conflicts.empty() && !has_lines) {
+        throw UsageError("--conflicts is for lines and samples, and all of the sources are TINs");
+    }
+    const std::vector<io::Source> read = all_sources();
+    for (const std::string& target : {targets.violations, targets.conflicts}) {
+        if (!target.empty()) {
+            refuse_to_overwrite_sources(target, read);
+            check_conflict_target(target, output.driver);
+            check_output_place(target, output.overwrite);
+        }
+    }
+    return targets;
+}
+
+CheckedLines CommandCheck::check_lines_and_samples(const Sorted& sorted, const Targets& targets,
+                                                   Console& console, std::vector<std::string>& outputs) {
+    const double begin = sorted.tins.empty() ? 0 : kTinShare;
+    const auto share = [&](double of_rest) { return begin + (1 - begin) * of_rest; };
+    CheckedLines checked;
+    checked.lines.crs = crs.crs();
+    if (!sorted.samples.empty()) {
+        io::ReadOptions options;
+        options.skip_bad = true;
+        options.crs = crs.crs();
+        options.source_crs = crs.source_crs();
+        options.threads = 0;
+        options.progress = console.progress().stage(share(0), share(0.4));
+        checked.samples = io::read_samples(sorted.samples, options);
+    }
+    if (!sorted.lines.empty()) {
+        io::ReadLinesOptions options;
+        options.keep_faults = true;
+        options.crs = checked.samples.crs.is_known() ? checked.samples.crs : crs.crs();
+        options.source_crs = crs.source_crs();
+        options.z_unit = checked.samples.z_unit;
+        options.progress = console.progress().stage(share(0.4), share(0.5));
+        checked.lines = io::read_lines(sorted.lines, options);
+    }
+    for (const auto* const warnings : {&checked.samples.warnings, &checked.lines.warnings}) {
+        for (const std::string& warning : *warnings) {
+            console.warn(warning);
+        }
+    }
+    if (audit.repair) {
+        repair(checked, sorted, targets, console, outputs);
+    } else {
+        LineCheckOptions options = audit.check;
+        options.traits = traits_of(checked.lines);
+        options.progress = console.progress().stage(share(0.5), 1);
+        checked.report = check_lines(checked.lines.lines, checked.samples.points, options);
+    }
+    if (!targets.conflicts.empty()) {
+        const io::Crs& working = checked.samples.crs.is_known() ? checked.samples.crs : checked.lines.crs;
+        write_conflicts(checked.report.conflicts, {checked.lines, checked.samples}, working,
+                        targets.conflicts, output.overwrite, output.driver)
+            ->commit();
+        outputs.push_back(targets.conflicts);
+    }
+    return checked;
+}
+
+void CommandCheck::repair(CheckedLines& checked, const Sorted& sorted, const Targets& targets,
+                          Console& console, std::vector<std::string>& outputs) {
+    const RepairPlan plan = plan_repair(checked.lines, targets.folder, output.overwrite, all_sources());
+    LineRepairOptions options;
+    options.check = audit.check;
+    options.check.traits = traits_of(checked.lines);
+    options.crossing_z = audit.crossing_z;
+    LineRepair repaired = repair_lines_on_samples(checked.lines, checked.samples, options);
+    note_actions(repaired.found.conflicts, repaired.left.conflicts);
+    const io::Crs& working = checked.samples.crs.is_known() ? checked.samples.crs : checked.lines.crs;
+    for (const std::string& written :
+         write_repair(repaired, checked.lines, sorted.lines, plan, working, output.overwrite)) {
+        console.say("tinwright check: wrote " + written + "\n");
+    }
+    for (const RepairPlan::File& file : plan.files) {
+        outputs.push_back(file.target);
+    }
+    checked.report = std::move(repaired.found);
+    checked.left = std::move(repaired.left);
+    checked.crossing_z = audit.policy_name();
+}
+
+Outcome CommandCheck::run() {
+    Console console("check", talk);
+    const Sorted sorted = sort_sources();
+    const Targets targets = choose_targets(sorted);
+    const ViolationLayerOptions layer_options{output.driver, output.overwrite};
+    const bool has_lines = !sorted.lines.empty() || !sorted.samples.empty();
+
+    std::vector<CheckedSurface> surfaces;
+    std::size_t found = 0;
+    const double share =
+        (has_lines ? kTinShare : 1.0) / static_cast<double>(std::max<std::size_t>(1, sorted.tins.size()));
+    for (const io::Source& source : sorted.tins) {
+        const double begin = share * static_cast<double>(surfaces.size());
+        surfaces.push_back(check_surface(source, optimality, console.progress(), begin, begin + share));
+        found += surfaces.back().violation_count() + surfaces.back().improvable();
+    }
+    std::vector<std::string> outputs;
+    if (!targets.violations.empty()) {
+        write_violations(surfaces, targets.violations, layer_options);
+        outputs.push_back(targets.violations);
+    }
+    std::optional<CheckedLines> checked;
+    if (has_lines) {
+        checked = check_lines_and_samples(sorted, targets, console, outputs);
+        found += checked->found();
+    }
+    console.progress().finish();
+
+    std::string list;
+    for (const CheckedSurface& surface : surfaces) {
+        list += violation_lines(surface);
+        for (const std::string& verdict : verdicts(surface, optimality)) {
+            console.say("tinwright check: " + verdict + "\n");
+        }
+    }
+    if (checked) {
+        list += conflict_lines(*checked);
+        console.say("tinwright check: " + lines_verdict(*checked) + "\n");
+        if (checked->left) {
+            console.say("tinwright check: " + repair_verdict(*checked) + "\n");
+        }
+    }
+    if (talk.json) {
+        print_result(
+            check_json(surfaces, optimality.criterion.has_value(), checked ? &*checked : nullptr, outputs)
+                .text());
+    } else if (!output.is_stdout()) {
+        print_result(list);
+    }
     return found == 0 ? Outcome::Done : Outcome::ViolationsFound;
 }
 

@@ -125,11 +125,14 @@ std::string conflict_text(const LineConflict& conflict, const ConflictOrigins& o
     return names.empty() ? text : text + names + ")";
 }
 
-void check_conflict_target(const std::string& target) { PointLayer::check_target(target); }
+void check_conflict_target(const std::string& target, const std::string& driver) {
+    PointLayer::check_target(target, driver);
+}
 
 std::unique_ptr<io::AtomicOutput> write_conflicts(std::span<const LineConflict> conflicts,
                                                   const ConflictOrigins& origins, const io::Crs& crs,
-                                                  const std::string& target, bool overwrite) {
+                                                  const std::string& target, bool overwrite,
+                                                  const std::string& driver) {
     constexpr std::array<io::TinField, 10> kFields{{{"kind", OFTString},
                                                     {"source_a", OFTString},
                                                     {"feature_a", OFTInteger64},
@@ -140,7 +143,7 @@ std::unique_ptr<io::AtomicOutput> write_conflicts(std::span<const LineConflict> 
                                                     {"z_a", OFTReal},
                                                     {"z_b", OFTReal},
                                                     {"action", OFTString}}};
-    PointLayer layer(target, "", overwrite, "conflicts", kFields, crs);
+    PointLayer layer(target, driver, overwrite, "conflicts", kFields, crs);
     for (const LineConflict& conflict : conflicts) {
         const auto [a, b] = sides_of(conflict, origins);
         layer.set(0, conflict_key(conflict.kind));

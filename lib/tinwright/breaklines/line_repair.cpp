@@ -154,6 +154,7 @@ class LineRepairer {
     void do_round(bool is_first);
     void add_samples_on_draped(KeyedLines& keyed) const;
     void snap(KeyedLines& keyed) const;
+    static bool lacks_z(const CleanLine& line);
     void replace_work(const KeyedLines& keyed);
     [[nodiscard]] std::vector<Breakline> lines_at_work() const;
     [[nodiscard]] LineCheckOptions check_options() const;
@@ -255,6 +256,10 @@ void LineRepairer::snap(KeyedLines& keyed) const {
     }
 }
 
+bool LineRepairer::lacks_z(const CleanLine& line) {
+    return std::any_of(line.z.begin(), line.z.end(), [](double z) { return std::isnan(z); });
+}
+
 /// Nodes the lines and makes their parts the lines to go on with.
 void LineRepairer::replace_work(const KeyedLines& keyed) {
     const NodedLines noded = node_keyed_lines(keyed, lines_at_work(),
@@ -274,16 +279,18 @@ void LineRepairer::replace_work(const KeyedLines& keyed) {
     const std::vector<std::vector<Chain>> parts = StretchKeeper(old, chains).run();
     work_.clear();
     for (std::size_t i = 0; i < old.size(); ++i) {
+        // Half a line with z would be one that lacks z elsewhere.
+        const bool stays_draped = !options_.drape && old[i].traits.is_draped && lacks_z(keyed.lines[i]);
         for (const Chain& part : parts[i]) {
             WorkLine work = old[i];
             work.line.points.clear();
             for (const std::uint32_t vertex : part) {
                 const Point2 at = lattice_.position(noded.keys[vertex]);
                 double z = noded.z[vertex];
-                if (options_.drape && std::isnan(z)) {
-                    z = options_.drape(at);
-                } else if (!options_.drape && work.traits.is_draped) {
+                if (stays_draped) {
                     z = kDraped;
+                } else if (options_.drape && std::isnan(z)) {
+                    z = options_.drape(at);
                 }
                 work.line.points.push_back({at.x, at.y, z});
             }
