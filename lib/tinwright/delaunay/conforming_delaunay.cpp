@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "tinwright/delaunay/propagation.hpp"
 #include "tinwright/delaunay/steiner_point.hpp"
 #include "tinwright/geometry/constructions.hpp"
 #include "tinwright/geometry/predicates.hpp"
@@ -251,6 +252,14 @@ class Splitter {
     std::size_t steps_ = 0;
 };
 
+std::size_t usual_budget(ConformingMethod method, std::size_t vertices, std::size_t edges) {
+    constexpr std::size_t kMost = 100'000'000;
+    const std::size_t few = 10 * vertices + 100 * edges;
+    // Some sets of edges need as many as there are pairs of a vertex and an edge [tan1993, Fig. 6.1], which
+    // splitting does not always find.
+    return method == ConformingMethod::Split ? few : few + std::min(kMost, 10 * vertices * edges);
+}
+
 }  // namespace
 
 ConformingReport make_conforming(Tin& tin, const ConformingOptions& options) {
@@ -258,7 +267,14 @@ ConformingReport make_conforming(Tin& tin, const ConformingOptions& options) {
     const std::size_t old_count = tin.vertex_count();
     SteinerInserter inserter(tin);
     const std::size_t max_steiner =
-        options.max_steiner > 0 ? options.max_steiner : 10 * old_count + 100 * inserter.line_edges().size();
+        options.max_steiner > 0 ? options.max_steiner
+                                : usual_budget(options.method, old_count, inserter.line_edges().size());
+    if (options.method == ConformingMethod::Blocking) {
+        const BlockingReport blocking = block_and_propagate(inserter, max_steiner, options.progress);
+        report.blocking_disks = blocking.disks;
+        report.blocking_vertices = blocking.circle_vertices + blocking.touching_vertices;
+    }
+    // After blocking, what rounding to the lattice has spoiled.
     Splitter splitter(inserter, max_steiner, options.progress);
     splitter.run();
     report.open_edges = splitter.count_open();

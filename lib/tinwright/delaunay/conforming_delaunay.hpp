@@ -16,7 +16,7 @@ enum class ConformingMethod {
 struct ConformingOptions {
     ConformingMethod method = ConformingMethod::Split;
     /// Steiner points allowed; 0: ten a vertex and a hundred an edge of a line, which nothing seen comes
-    /// near.
+    /// near; for Blocking ten more, but at most 10^8, for each pair of a vertex and an edge.
     std::size_t max_steiner = 0;
     Progress progress = {};
 };
