@@ -65,7 +65,7 @@ class Maker {
         prepare_drape();
         node();
         merge();
-        tin().mesh = make_delaunay(tin().keys);
+        tin().mesh = make_delaunay(tin().keys, spare_vertices());
         if (tin().mesh.count_terrain() > 0) {
             insert_pieces();
         }
@@ -80,6 +80,11 @@ class Maker {
   private:
     [[nodiscard]] Tin& tin() { return result_.tin; }
     [[nodiscard]] bool is_ring(std::uint32_t number) const { return number >= lines_.size(); }
+
+    // Memory that is not touched costs nothing; moving a TIN to make room for Steiner points does.
+    [[nodiscard]] std::size_t spare_vertices() const {
+        return options_.wants_fine_lattice ? noded_.pieces.size() : 0;
+    }
 
     void prepare_drape() {
         if (std::none_of(line_points_.begin(), line_points_.end(),
@@ -143,7 +148,10 @@ class Maker {
         const auto& keys = sample_vertices_.keys;
         const auto& noded = noded_.keys;
         vertex_of_.resize(noded.size());
-        tin().keys.reserve(keys.size() + noded.size());
+        const std::size_t most = keys.size() + noded.size() + spare_vertices();
+        tin().keys.reserve(most);
+        tin().z.reserve(most);
+        tin().sample.reserve(most);
         std::size_t i = 0;
         std::size_t k = 0;
         while (i < keys.size() || k < noded.size()) {

@@ -326,8 +326,10 @@ class Builder {
 
 }  // namespace
 
-TriangleMesh make_delaunay(std::span<const Key2> vertices) {
-    TriangleMesh::Faces faces(2 * vertices.size() - 2);
+TriangleMesh make_delaunay(std::span<const Key2> vertices, std::size_t spare_vertices) {
+    TriangleMesh::Faces faces;
+    faces.reserve(2 * (vertices.size() + spare_vertices) - 2);
+    faces.resize(2 * vertices.size() - 2);
     Builder(vertices, faces).build(0, vertices.size());
     return {vertices.size(), std::move(faces)};
 }
