@@ -260,4 +260,95 @@ TEST_SUITE("tools/setup") {
             UsageError);
         CHECK_NOTHROW(refuse_to_overwrite_sources("b.csv", sources));
     }
+
+    TEST_CASE("lines have roles, in any number, and defaults") {
+        CommandTin tin;
+        tin.setup({"a.csv", "--holes", "h.gpkg", "--breaklines", "b.gpkg,layer=ditch,z=drape", "--boundary",
+                   "o.gpkg", "--breaklines", "c.shp,across=smooth", "--oo", "A=1", "-o", "t.gpkg"});
+        REQUIRE(tin.lines.sources.size() == 4);
+        CHECK(tin.lines.sources[0].source.path == "b.gpkg");
+        CHECK(tin.lines.sources[0].source.z == "drape");
+        CHECK(tin.lines.sources[0].source.open_options == std::vector<std::string>{"A=1"});
+        CHECK(tin.lines.sources[1].source.across == "smooth");
+        CHECK(tin.lines.sources[1].role == LineRole::Breakline);
+        CHECK(tin.lines.sources[2].role == LineRole::Boundary);
+        CHECK(tin.lines.sources[3].role == LineRole::Hole);
+        CHECK_FALSE(tin.lines.conforming.has_value());
+        CHECK(tin.lines.noding.snap == 0);
+        CHECK(tin.lines.noding.crossing_z == CrossingPolicy::Error);
+        CHECK(tin.lines.noding.crossing_tolerance == 0);
+        CHECK(tin.lines.line_tolerance == 0);
+        CHECK(tin.lines.canonical() == " --constraints constrained --crossing-z error");
+        CommandTin plain;
+        plain.setup({"a.csv", "-o", "t.gpkg"});
+        CHECK(plain.lines.canonical().empty());
+        CHECK(plain.lines.first_given().empty());
+    }
+
+    TEST_CASE("options of lines are read and written back canonically") {
+        CommandGrid grid;
+        grid.setup({"a.csv",      "--breaklines",
+                    "b.gpkg",     "--max-steiner",
+                    "500",        "--constraints",
+                    "conforming", "--conforming-method",
+                    "blocking",   "--snap",
+                    "0.10",       "--crossing-z",
+                    "mean",       "--crossing-tolerance",
+                    "5e-2",       "--line-tolerance",
+                    "2",          "--conflicts",
+                    "c.gpkg",     "-o",
+                    "d.tif"});
+        TriangulateOptions options;
+        grid.lines.apply_to(options);
+        REQUIRE(options.conforming.has_value());
+        CHECK(options.conforming->method == ConformingMethod::Blocking);
+        CHECK(options.conforming->max_steiner == 500);
+        CHECK(options.noding.snap == 0.1);
+        CHECK(options.noding.crossing_z == CrossingPolicy::Mean);
+        CHECK(options.noding.crossing_tolerance == 0.05);
+        CHECK(options.line_tolerance == 2);
+        CHECK(grid.lines.conflicts == "c.gpkg");
+        CHECK(grid.lines.canonical() ==
+              " --constraints conforming --conforming-method blocking --max-steiner 500 --snap 0.1 "
+              "--crossing-z mean --crossing-tolerance 0.05");
+    }
+
+    TEST_CASE("breaklines may do without samples") {
+        CHECK(complaint<CommandTin>({"--breaklines", "b.gpkg", "-o", "t.gpkg"}) == "fine");
+        CHECK(complaint<CommandTin>({"--boundary", "b.gpkg", "-o", "t.gpkg"}) ==
+              "no source is given: name a file with points, such as survey.csv");
+    }
+
+    TEST_CASE("options of lines that cannot be are named with what is wrong") {
+        const auto of_lines = [](std::vector<std::string> arguments) {
+            arguments.insert(arguments.end(), {"a.csv", "--breaklines", "b.gpkg", "-o", "t.gpkg"});
+            return complaint<CommandTin>(arguments);
+        };
+        CHECK(of_lines({"--constraints", "loose"}) ==
+              "--constraints takes constrained or conforming, not \"loose\"");
+        CHECK(of_lines({"--conforming-method", "split"}) ==
+              "--conforming-method is for a conforming TIN: give --constraints conforming too");
+        CHECK(of_lines({"--constraints", "constrained", "--max-steiner", "5"}) ==
+              "--max-steiner is for a conforming TIN: give --constraints conforming too");
+        CHECK(of_lines({"--constraints", "conforming", "--conforming-method", "best"}) ==
+              "--conforming-method takes split or blocking, not \"best\"");
+        CHECK(of_lines({"--constraints", "conforming", "--max-steiner", "0"}) ==
+              "--max-steiner needs a whole number from 1 up, not \"0\"");
+        CHECK(of_lines({"--crossing-z", "median"}) ==
+              "--crossing-z takes error, mean, first, min or max, not \"median\"");
+        for (const std::string option : {"--snap", "--crossing-tolerance", "--line-tolerance"}) {
+            CHECK(of_lines({option, "-1"}) == option + " needs a number from 0 up, not \"-1\"");
+            CHECK(of_lines({option, "near"}) == option + " needs a number, not \"near\"");
+            CHECK(complaint<CommandTin>({"a.csv", "-o", "t.gpkg", option, "1"}) ==
+                  option + " is for lines: give --breaklines, --boundary or --holes too");
+        }
+        CHECK(complaint<CommandTin>({"a.csv", "-o", "t.gpkg", "--constraints", "conforming"}) ==
+              "--constraints is for lines: give --breaklines, --boundary or --holes too");
+        CHECK(of_lines({"--conflicts", "t.gpkg"}) == "--conflicts and -o name the same file \"t.gpkg\"");
+        CHECK(complaint<CommandGrid>({"a.csv", "--holes", "h.gpkg", "-o", "d.tif", "--preview", "p.png",
+                                      "--conflicts", "p.png"}) ==
+              "--conflicts and --preview name the same file \"p.png\"");
+        CHECK(of_lines({"--boundary", ",layer=a"}) ==
+              R"(source ",layer=a": the path is missing; write PATH[,key=value...])");
+    }
 }
