@@ -27,6 +27,8 @@ void run_read(const Settings& settings);
 void run_criteria(const Settings& settings);
 void run_criteria_growth(const Settings& settings);
 void run_criteria_worst(const Settings& settings);
+/// Lines cut where they meet.
+void run_noding(const Settings& settings);
 /// Lines in the triangulation: constrained Delaunay, and what makes it conforming.
 void run_constrained(const Settings& settings);
 void run_conforming(const Settings& settings);

@@ -39,12 +39,13 @@ constexpr std::array kBenchmarks{Benchmark{"delaunay", run_delaunay},
                                  Benchmark{"criteria", run_criteria},
                                  Benchmark{"criteria_growth", run_criteria_growth},
                                  Benchmark{"criteria_worst", run_criteria_worst},
+                                 Benchmark{"noding", run_noding},
                                  Benchmark{"constrained", run_constrained},
                                  Benchmark{"conforming", run_conforming}};
 
 constexpr const char* kUsage =
     "usage: tinwright_benchmarks delaunay|raster|job|read|criteria|criteria_growth|criteria_worst|\n"
-    "                            constrained|conforming\n"
+    "                            noding|constrained|conforming\n"
     "           [--rounds K] [--scale FRACTION] [--tinwright COMMAND] [--images FOLDER]\n"
     "Prints a table of docs/benchmarks.md. Medians of K interleaved runs (default 5).\n";
 

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # Builds the benchmarks, runs them and puts their tables in docs/benchmarks.md.
 #   bash tests/benchmarks/run.sh [TABLE...]        tables: delaunay raster read job criteria
-#                                                 criteria_growth criteria_worst constrained conforming (default: all)
+#                                                 criteria_growth criteria_worst noding constrained conforming (default: all)
 # ROUNDS=k changes the number of interleaved runs of which the median is taken (default 5). SCALE=f takes that part
 # of the points for a quick look. BUILD=folder holds the build.
-# CGAL and gdal_grid are what is compared with: on Debian, `apt-get install libcgal-dev gdal-bin`.
+# CGAL, GEOS and gdal_grid are what is compared with: on Debian, `apt-get install libcgal-dev libgeos-dev gdal-bin`.
 set -euo pipefail
 
 root=$(cd "$(dirname "$0")/../.." && pwd)
@@ -14,7 +14,7 @@ rounds=${ROUNDS:-5}
 scale=${SCALE:-1}
 tables=("$@")
 if [ ${#tables[@]} -eq 0 ]; then
-    tables=(delaunay raster read job criteria criteria_growth criteria_worst constrained conforming)
+    tables=(delaunay raster read job criteria criteria_growth criteria_worst noding constrained conforming)
 fi
 
 cmake -S "$root" -B "$build" -DCMAKE_BUILD_TYPE=Release -DTINWRIGHT_BUILD_BENCHMARKS=ON
