@@ -66,7 +66,8 @@ std::optional<VertexId> SteinerInserter::split(HalfEdgeId h, double t) {
     return v;
 }
 
-// Lattice points strictly between two ends, nearest to the line's edge of those around the place t.
+// Lattice points next to the line's edge, strictly between two ends, from the place t outward. Off that place
+// by even a step, a point leaves the vertex it keeps away from in the disk of one of the parts.
 void SteinerInserter::find_places(std::uint32_t line_edge, Key2 from, Key2 to, double t) {
     constexpr int kReach = 3;
     const Key2 begin = tin_.key(line_edges_[line_edge].first);
@@ -88,8 +89,8 @@ void SteinerInserter::find_places(std::uint32_t line_edge, Key2 from, Key2 to, d
         }
     }
     std::sort(places_.begin(), places_.end(), [](const Place& p, const Place& q) {
-        return std::tie(p.distance, p.offset, p.key.x, p.key.y) <
-               std::tie(q.distance, q.offset, q.key.x, q.key.y);
+        return std::tie(p.offset, p.distance, p.key.x, p.key.y) <
+               std::tie(q.offset, q.distance, q.key.x, q.key.y);
     });
 }
 

@@ -34,9 +34,9 @@ class SteinerInserter {
     [[nodiscard]] const std::vector<std::pair<VertexId, VertexId>>& line_edges() const { return line_edges_; }
 
     /// Splits the constrained edge of `h`, which must not be on the hull, near the place `t` of the way from
-    /// its origin to its destination, 0 < t < 1: at a lattice point within half a step, in x or in y, of the
-    /// line's edge as it was, the closest to it of the few around. z is linear along that edge.
-    /// Empty, and nothing done, when no such lattice point keeps all faces counter-clockwise.
+    /// its origin to its destination, 0 < t < 1: at the nearest lattice point within half a step, in x or in
+    /// y, of the line's edge as it was. z is linear along that edge. Empty, and nothing done, when no such
+    /// lattice point keeps all faces counter-clockwise.
     std::optional<VertexId> split(HalfEdgeId h, double t);
     /// Puts a free vertex with elevation z at a lattice point strictly inside the hull; empty when the point
     /// is a vertex already or on a constrained edge. The walk to it starts at `near`.
