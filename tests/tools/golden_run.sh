@@ -4,7 +4,8 @@
 #
 # A golden file holds cases of lines that begin with
 #   == name        a new case
-#   $ command      shell lines, run together in a folder that holds only a copy of tests/tools/data as `in`
+#   $ command      shell lines, run together in a folder that holds only a copy of tests/tools/data as `in`;
+#                  $SAMPLES is samples/data
 #   ? status       the exit status expected of the last command, default 0
 #   > line         a line expected on standard output
 #   ! line         a line expected on standard error
@@ -12,7 +13,8 @@
 # the rules for messages; values of surfaces follow from the data, as the comments in the files say.
 set -u
 file=$1 name=$2 tools=$3 scratch=$4
-export PATH="$tools:$PATH" LC_ALL=C
+SAMPLES=$(cd "$(dirname "$file")/../../samples/data" && pwd) || exit 2
+export PATH="$tools:$PATH" LC_ALL=C SAMPLES
 rm -rf "$scratch" && mkdir -p "$scratch/here" && cp -r "$(dirname "$file")/data" "$scratch/here/in" || exit 2
 
 select_lines() { # of this case, without their mark
