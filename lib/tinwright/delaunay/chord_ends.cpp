@@ -52,14 +52,8 @@ class ChordsOfDisk {
         for (CenteredChord& chord : chords_) {
             crease(chord);
         }
-        // Vertices on the circle stay where they are: a linear function makes up for it.
-        const double at_vertex = power(to_vertex_);
-        const double at_other = has_other_ ? power(disk_.center) : at_vertex;
-        const double square = disk_.radius * disk_.radius;
-        const auto change = [&](Offset place) {
-            const double along = dot(place, to_vertex_) / square;  // 1 at the vertex, -1 opposite
-            return power(place) - 0.5 * ((1 + along) * at_vertex + (1 - along) * at_other);
-        };
+        const Level level = find_level();
+        const auto change = [&](Offset place) { return power(place) - level.at(along(place)); };
         for (const CenteredChord& moved : chords_) {
             Chord& chord = *moved.chord;
             const double length = (chord.to - chord.from) * moved.edge->length;
@@ -81,10 +75,61 @@ class ChordsOfDisk {
     static constexpr double kNear = 0.99;   // of a full disk: i_j counts as on the circle
     static constexpr double kShare = 0.05;  // of a chord: no end moves farther than that
 
+    // A linear function of how far a place is along the edge of the tree.
+    struct Level {
+        double at_vertex;  // where that is 1
+        double at_other;   // where it is -1
+        [[nodiscard]] double at(double along) const {
+            return 0.5 * ((1 + along) * at_vertex + (1 - along) * at_other);
+        }
+    };
+
+    // From the vertex, 1, to the other side of the circle, -1.
+    [[nodiscard]] double along(Offset place) const {
+        return dot(place, to_vertex_) / (disk_.radius * disk_.radius);
+    }
+
+    // What to take off the power of ends: none of them is to leave the disk, but those at vertices stay where
+    // they are, and so does the power there.
+    [[nodiscard]] Level find_level() const {
+        Level level{power(to_vertex_), power(disk_.center)};
+        const bool has_vertex = ends_at(disk_.vertex);
+        const bool has_other = has_other_ && ends_at(disk_.towards);
+        if (has_vertex && has_other) {
+            return level;
+        }
+        double most = has_vertex ? level.at_other : level.at_vertex;
+        for (const CenteredChord& chord : chords_) {
+            for (const Offset place : {chord.begin, chord.end}) {
+                const double here = power(place);
+                if (has_vertex || has_other) {
+                    const double share = 0.5 * (has_vertex ? 1 - along(place) : 1 + along(place));
+                    const double fixed = has_vertex ? level.at_vertex : level.at_other;
+                    if (share > kShare) {
+                        most = std::max(most, fixed + (here - fixed) / share);
+                    }
+                } else {
+                    most = std::max(most, here);
+                }
+            }
+        }
+        if (has_vertex) {
+            return {level.at_vertex, most};
+        }
+        return {most, has_other ? level.at_other : most};
+    }
+
+    [[nodiscard]] bool ends_at(VertexId v) const {
+        return std::any_of(chords_.begin(), chords_.end(), [&](const CenteredChord& chord) {
+            return (chord.chord->from <= 0 && chord.edge->p == v) ||
+                   (chord.chord->to >= 1 && chord.edge->q == v);
+        });
+    }
+
     // A place that is rounded moves by up to 3 steps, which changes its power by up to 6 radii, and 4 places
-    // decide together whether an edge is Delaunay; some of that is rarely needed.
+    // decide together whether an edge is Delaunay.
     void crease(CenteredChord& chord) const {
-        constexpr double kRounding = 16;
+        constexpr double kRounding = 24;
         constexpr double kSteepest = 0.005;  // of the radius
         double least = disk_.radius;
         const auto look_at = [&](Offset place) {
