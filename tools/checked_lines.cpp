@@ -71,10 +71,10 @@ struct Phrase {
 constexpr std::array<Phrase, LineConflict::kKinds> kPhrases = {
     {{"crosses itself", "crosses ", ""},
      {"crosses itself", "", ""},
-     {"touches itself", "touches ", " where one of them has no point"},
+     {"touches itself", "touches ", " without a common point"},
      {"runs along itself", "runs along ", ""},
      {"is there twice", "is there again as ", ""},
-     {"has two points at one location", "", ""},
+     {"has a part without length", "", ""},
      {"has ends that nearly meet", "nearly meets ", ""},
      {"has two elevations at one location", "has another elevation than ", ""},
      {"", "has another elevation than ", " on it"},

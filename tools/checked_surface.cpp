@@ -1,12 +1,15 @@
 #include "checked_surface.hpp"
 
+#include <algorithm>
 #include <array>
 #include <numeric>
 #include <utility>
 
 #include <ogrsf_frmts.h>
 
+#include "tinwright/delaunay/delaunay_edges.hpp"
 #include "tinwright/geometry/decimal.hpp"
+#include "tinwright/geometry/lattice.hpp"
 #include "tinwright/io/atomic_output.hpp"
 #include "tinwright/io/read_tin.hpp"
 #include "tinwright/io/tin_dataset.hpp"
@@ -68,6 +71,37 @@ FaceCheckReport check_either_way_round(io::TinFile& file) {
     return turned.count(FaceDefect::Clockwise) < report.count(FaceDefect::Clockwise) ? turned : report;
 }
 
+/// Empty where the file does not tell which edges are parts of lines.
+std::optional<ConformityReport> check_conformity(const io::TinFile& file) {
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
+    for (const io::TinFile::LineEdge& edge : file.line_edges) {
+        edges.emplace_back(edge.a, edge.b);
+    }
+    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    if (edges.empty()) {
+        return std::nullopt;
+    }
+    const Lattice lattice = find_lattice(file.vertices).lattice;
+    std::vector<Key2> keys;
+    keys.reserve(file.vertices.size());
+    for (const Point3& vertex : file.vertices) {
+        keys.push_back(lattice.key({vertex.x, vertex.y}));
+    }
+    ConformityReport report;
+    report.line_edges = edges.size();
+    report.open_edges = count_edges_without_disk(keys, edges);
+    report.is_claimed = std::any_of(file.metadata.begin(), file.metadata.end(), [](const auto& item) {
+        return item.first == "TINWRIGHT_CONFORMING" && item.second == "true";
+    });
+    return report;
+}
+
+/// "3 of 120 edges of lines are not Delaunay".
+std::string open_edges_text(const ConformityReport& conformity) {
+    return std::to_string(conformity.open_edges) + " of " + std::to_string(conformity.line_edges) +
+           (conformity.open_edges == 1 ? " edges of lines is" : " edges of lines are") + " not Delaunay";
+}
+
 }  // namespace
 
 CheckedSurface check_surface(const io::Source& source, const OptimalityOptions& optimality,
@@ -82,6 +116,9 @@ CheckedSurface check_surface(const io::Source& source, const OptimalityOptions& 
     surface.crs = file.crs;
     surface.vertices = file.vertices.size();
     surface.report = check_either_way_round(file);
+    if (surface.report.is_clean()) {
+        surface.conformity = check_conformity(file);
+    }
     report_progress(progress.stage(read, audited), 1);
     if (optimality.criterion && surface.report.is_clean()) {
         surface.optimality = check_optimality(file, optimality, progress.stage(audited, end));
@@ -91,7 +128,8 @@ CheckedSurface check_surface(const io::Source& source, const OptimalityOptions& 
 }
 
 std::size_t CheckedSurface::violation_count() const {
-    return std::accumulate(report.counts.begin(), report.counts.end(), std::size_t{0});
+    return std::accumulate(report.counts.begin(), report.counts.end(),
+                           std::size_t{conformity && conformity->is_refuted() ? 1U : 0U});
 }
 
 std::string violation_lines(const CheckedSurface& surface) {
@@ -109,9 +147,15 @@ std::string violation_lines(const CheckedSurface& surface) {
         }
         lines += "\n";
     }
-    const std::size_t unlisted = surface.violation_count() - surface.report.violations.size();
+    const std::size_t unlisted =
+        std::accumulate(surface.report.counts.begin(), surface.report.counts.end(), std::size_t{0}) -
+        surface.report.violations.size();
     if (unlisted > 0) {
         lines += surface.file + ": and " + std::to_string(unlisted) + " more of these kinds\n";
+    }
+    if (surface.conformity && surface.conformity->is_refuted()) {
+        lines += surface.file + ": " + open_edges_text(*surface.conformity) +
+                 ", while its metadata say that it is conforming\n";
     }
     if (surface.optimality) {
         lines += improvable_lines(*surface.optimality, surface.file);
@@ -127,6 +171,12 @@ std::vector<std::string> verdicts(const CheckedSurface& surface, const Optimalit
         surface.file + ": " +
         (count == 0 ? "clean, " + faces
                     : std::to_string(count) + (count == 1 ? " violation in " : " violations in ") + faces)};
+    if (surface.conformity) {
+        list.push_back(surface.file + ": conforming: " +
+                       (surface.conformity->open_edges > 0
+                            ? "no (" + open_edges_text(*surface.conformity) + ")"
+                            : "yes (" + std::to_string(surface.conformity->line_edges) + " edges of lines)"));
+    }
     if (surface.optimality) {
         list.push_back(surface.file + ": " + optimality_verdict(*surface.optimality));
     } else if (optimality.criterion) {
@@ -152,6 +202,14 @@ JsonValue surface_json(const CheckedSurface& surface) {
         .set("faces", surface.face_ids.size())
         .set("counts", counts)
         .set("violations", violations);
+    if (surface.conformity) {
+        JsonValue conformity = JsonValue::object();
+        conformity.set("conforming", surface.conformity->open_edges == 0)
+            .set("claimed", surface.conformity->is_claimed)
+            .set("line_edges", surface.conformity->line_edges)
+            .set("open_edges", surface.conformity->open_edges);
+        json.set("conformity", conformity);
+    }
     if (surface.optimality) {
         json.set("optimality", optimality_json(*surface.optimality));
     }

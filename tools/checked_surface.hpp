@@ -18,6 +18,14 @@
 
 namespace tinwright::tools {
 
+/// What a file with lines in it says of being conforming, and what is true.
+struct ConformityReport {
+    std::size_t line_edges = 0;  ///< edges that are parts of lines
+    std::size_t open_edges = 0;  ///< of these, those without an empty disk: not Delaunay
+    bool is_claimed = false;     ///< whether the metadata say that there are none
+    [[nodiscard]] bool is_refuted() const { return is_claimed && open_edges > 0; }
+};
+
 /// A TIN file after its audit.
 struct CheckedSurface {
     std::string file;
@@ -26,9 +34,10 @@ struct CheckedSurface {
     std::size_t vertices = 0;
     std::vector<std::int64_t> face_ids;  ///< feature id of each face
     FaceCheckReport report;
+    std::optional<ConformityReport> conformity;  ///< where the file tells which edges are parts of lines
     std::optional<OptimalityReport> optimality;  ///< where asked for, and there is no violation
 
-    /// All violations, listed or not.
+    /// All violations, listed or not; a claim to be conforming that is refuted is one too.
     [[nodiscard]] std::size_t violation_count() const;
     [[nodiscard]] std::size_t improvable() const { return optimality ? optimality->improvable() : 0; }
 };

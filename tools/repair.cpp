@@ -33,17 +33,33 @@ std::string stem_of(const std::string& file) {
     return stem.empty() ? "lines" : stem;
 }
 
-void make_folder(const std::string& folder) {
-    if (folder.starts_with("/vsi")) {
-        return;
+bool is_virtual(const std::string& folder) { return folder.starts_with("/vsi"); }
+
+/// A folder that is there for the files in it, and goes with them when writing fails.
+class OutputFolder {
+  public:
+    explicit OutputFolder(std::string folder) : folder_(std::move(folder)) {
+        std::error_code error;
+        if (!is_virtual(folder_) && !std::filesystem::create_directories(folder_, error) && error) {
+            throw IoError("cannot make the folder " + io::quoted(folder_) + ": " + error.message());
+        }
+        is_new_ = !is_virtual(folder_) && std::filesystem::is_empty(folder_, error);
     }
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (!std::filesystem::is_directory(folder)) {
-        throw IoError("cannot write into " + io::quoted(folder) + ": it is no folder and cannot be made one" +
-                      (error ? ", " + error.message() : std::string()));
+    ~OutputFolder() {
+        if (is_new_ && !is_kept_) {
+            std::error_code ignored;  // there is nothing else that could be done
+            std::filesystem::remove(folder_, ignored);
+        }
     }
-}
+    OutputFolder(const OutputFolder&) = delete;
+    OutputFolder& operator=(const OutputFolder&) = delete;
+    void keep() { is_kept_ = true; }
+
+  private:
+    std::string folder_;
+    bool is_new_ = false;
+    bool is_kept_ = false;
+};
 
 /// The samples' Delaunay TIN, asked in CRS units.
 class SampleDrape {
@@ -90,8 +106,14 @@ bool needs_drape(const io::Lines& lines) {
 
 RepairPlan plan_repair(const io::Lines& lines, const std::string& folder, bool overwrite,
                        std::span<const io::Source> sources) {
-    make_folder(folder);
+    std::error_code ignored;  // of a folder that is not there
+    const bool is_there = is_virtual(folder) || std::filesystem::exists(folder, ignored);
+    if (is_there && !is_virtual(folder) && !std::filesystem::is_directory(folder, ignored)) {
+        throw IoError("cannot write into " + io::quoted(folder) +
+                      ": it is a file, and --repair needs a folder");
+    }
     RepairPlan plan;
+    plan.folder = folder;
     std::vector<std::string> files;
     std::vector<std::set<std::string>> layers;
     std::set<std::string> stems;
@@ -109,7 +131,9 @@ RepairPlan plan_repair(const io::Lines& lines, const std::string& folder, bool o
     }
     for (const RepairPlan::File& file : plan.files) {
         refuse_to_overwrite_sources(file.target, sources);
-        check_output_place(file.target, overwrite);
+        if (is_there) {
+            check_output_place(file.target, overwrite);
+        }
     }
     return plan;
 }
@@ -128,6 +152,7 @@ std::vector<std::string> write_repair(const LineRepair& repair, const io::Lines&
                                       std::span<const io::LineSource> sources, const RepairPlan& plan,
                                       const io::Crs& crs, bool overwrite) {
     std::vector<std::string> report;
+    OutputFolder folder(plan.folder);
     for (const RepairPlan::File& file : plan.files) {
         std::vector<io::ChangedLines> layers;
         for (std::size_t i = 0; i < file.slices.size(); ++i) {
@@ -149,6 +174,7 @@ std::vector<std::string> write_repair(const LineRepair& repair, const io::Lines&
                                                    : std::string()));
         }
     }
+    folder.keep();
     return report;
 }
 

@@ -19,12 +19,13 @@ struct RepairPlan {
         std::vector<std::size_t> slices;  ///< of the lines that were read
         std::vector<std::string> layers;  ///< name of each one's layer
     };
+    std::string folder;
     std::vector<File> files;
 };
 
-/// `folder/<name>.gpkg` for each file that lines were read from, numbered where names are the same. Makes the
-/// folder if it is not there. Throws UsageError when a target is one of `sources`, IoError when one exists
-/// and may not be replaced, or cannot be written.
+/// `folder/<name>.gpkg` for each file that lines were read from, numbered where names are the same. Throws
+/// UsageError when a target is one of `sources`, IoError when one exists and may not be replaced, or when the
+/// folder is none.
 RepairPlan plan_repair(const io::Lines& lines, const std::string& folder, bool overwrite,
                        std::span<const io::Source> sources);
 
@@ -33,8 +34,9 @@ RepairPlan plan_repair(const io::Lines& lines, const std::string& folder, bool o
 LineRepair repair_lines_on_samples(const io::Lines& lines, const io::Samples& samples,
                                    LineRepairOptions options);
 
-/// Writes the repaired lines as planned; `sources`: of the lines, as `read_lines` got them. Returns a line
-/// for the report a layer: "clean/roads.gpkg: layer roads, 12 features, 1 left out".
+/// Writes the repaired lines as planned, into a new folder if there is none; `sources`: of the lines, as
+/// `read_lines` got them. Returns a line for the report a layer: "clean/roads.gpkg: layer roads, 12 features,
+/// 1 left out".
 std::vector<std::string> write_repair(const LineRepair& repair, const io::Lines& lines,
                                       std::span<const io::LineSource> sources, const RepairPlan& plan,
                                       const io::Crs& crs, bool overwrite);

@@ -24,6 +24,7 @@ class LineCleaner {
         : points_(points), lattice_(lattice), options_(options), faults_(faults) {}
 
     CleanLine run() {
+        const auto before = static_cast<std::ptrdiff_t>(faults_.size());
         merge_repeated();
         if (options_.is_ring) {
             close();
@@ -38,6 +39,12 @@ class LineCleaner {
             cut_spikes_at_closure();
         } else {
             cut_spikes(true);
+        }
+        const bool is_listed =
+            std::any_of(faults_.begin() + before, faults_.end(),
+                        [](const LineFault& fault) { return fault.kind == Kind::ZeroLength; });
+        if (line_.keys.size() == 1 && !is_listed) {
+            faults_.push_back({Kind::ZeroLength, line_.keys[0], line_.z[0], kNone});
         }
         return std::move(line_);
     }

@@ -39,10 +39,10 @@ struct CleanOptions {
     CrossingPolicy crossing_z = CrossingPolicy::Mean;
 };
 
-/// Merges consecutive points at one location, closes a ring that is open, and cuts off spikes: places where
-/// the line turns back exactly on itself, or so narrowly that the end of the shorter arm is within `snap` of
-/// the longer one (the shorter arm itself being longer than `snap`). Cut off is what lies twice over itself;
-/// at the end of an open line that turns back, the part that turned back.
+/// Merges consecutive points at one location (a line of one point is listed too), closes a ring that is open,
+/// and cuts off spikes: places where the line turns back exactly on itself, or so narrowly that the end of
+/// the shorter arm is within `snap` of the longer one (the shorter arm itself being longer than `snap`). Cut
+/// off is what lies twice over itself; at the end of an open line that turns back, the part that turned back.
 /// `points`: one or more, x and y finite. Appends what was found to `faults`. O(n).
 CleanLine clean_line(std::span<const Point3> points, const Lattice& lattice, const CleanOptions& options,
                      std::vector<LineFault>& faults);
