@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <tuple>
 #include <utility>
 
+#include "tinwright/breaklines/near_lines.hpp"
 #include "tinwright/delaunay/constrained_delaunay.hpp"
 #include "tinwright/delaunay/delaunay.hpp"
 #include "tinwright/delaunay/drape.hpp"
@@ -14,8 +16,6 @@
 #include "tinwright/geometry/curve.hpp"
 #include "tinwright/geometry/decimal.hpp"
 #include "tinwright/geometry/error.hpp"
-#include "tinwright/geometry/predicates.hpp"
-#include "tinwright/mesh/box_tree.hpp"
 
 namespace tinwright {
 
@@ -345,47 +345,28 @@ class Maker {
     }
 
     void report_near_samples() {
-        const double reach = options_.line_tolerance / tin().lattice.quantum();
-        const std::vector<NodedPiece>& pieces = noded_.pieces;
-        std::vector<KeyBox> boxes;
-        for (const NodedPiece& piece : pieces) {
-            KeyBox box = KeyBox::of(std::vector{noded_.keys[piece.a], noded_.keys[piece.b]});
-            box.add({{box.low.x - reach, box.low.y - reach}, {box.high.x + reach, box.high.y + reach}});
-            boxes.push_back(box);
-        }
-        const BoxTree tree(boxes);
-        for (std::size_t i = 0; i < sample_vertices_.keys.size(); ++i) {
-            const Key2 key = sample_vertices_.keys[i];
-            double nearest = reach * reach;
-            std::optional<std::uint32_t> near;
-            bool is_on_line = false;
-            tree.visit_meeting(
-                {key, key}, [](const KeyBox&) { return false; },
-                [&](std::uint32_t item) {
-                    const NodedPiece& piece = pieces[item];
-                    const Key2 a = noded_.keys[piece.a];
-                    const Key2 b = noded_.keys[piece.b];
-                    const double share =
-                        std::clamp(inner_product(key, a, b) / squared_distance(a, b), 0.0, 1.0);
-                    const double x = key.x - (a.x + share * (b.x - a.x));
-                    const double y = key.y - (a.y + share * (b.y - a.y));
-                    is_on_line = key == a || key == b || (orient2d(a, b, key) == 0 && share > 0 && share < 1);
-                    const double squared = x * x + y * y;
-                    if (squared < nearest || (squared == nearest && (!near || piece.line < *near))) {
-                        nearest = squared;
-                        near = piece.line;
-                    }
-                    return !is_on_line;
-                });
-            if (!is_on_line && near && !is_ring(*near)) {
-                LineConflict conflict;
-                conflict.kind = LineConflict::Kind::SampleNearLine;
-                conflict.line_a = *near;
-                conflict.sample = sample_vertices_.sample[i];
-                conflict.location = tin().lattice.position(key);
-                conflict.z_b = sample_vertices_.z[i];
-                result_.lines.conflicts.push_back(conflict);
+        std::vector<CleanLine> on_lattice(lines_.size());
+        for (std::size_t i = 0; i < lines_.size(); ++i) {
+            CleanLine& line = on_lattice[i];
+            for (const Point3& p : lines_[i].points) {
+                const Key2 key = tin().lattice.key({p.x, p.y});
+                if (line.keys.empty() || line.keys.back() != key) {
+                    line.keys.push_back(key);
+                    line.z.push_back(p.z);
+                }
             }
+        }
+        std::vector<Key2> keys;
+        keys.reserve(samples_.size());
+        for (const Point3& p : samples_) {
+            keys.push_back(tin().lattice.key({p.x, p.y}));
+        }
+        const double reach = options_.line_tolerance / tin().lattice.quantum();
+        constexpr double kAnyElevation = std::numeric_limits<double>::infinity();
+        for (FoundConflict& found :
+             find_samples_at_lines(samples_, keys, LineSegments(on_lattice), {kAnyElevation, reach})) {
+            found.conflict.location = tin().lattice.position(found.key);
+            result_.lines.conflicts.push_back(found.conflict);
         }
     }
 

@@ -5,6 +5,7 @@
 #include <tuple>
 #include <vector>
 
+#include "tinwright/breaklines/sample_hull.hpp"
 #include "tinwright/geometry/predicates.hpp"
 
 namespace tinwright {
@@ -40,15 +41,6 @@ std::vector<Place> hull_of(std::vector<Place> places) {
     return hull;
 }
 
-bool is_outside(const std::vector<Place>& hull, Key2 key) {
-    for (std::size_t i = 0; i < hull.size(); ++i) {
-        if (orient2d(hull[i].key, hull[(i + 1) % hull.size()].key, key) < 0) {
-            return true;
-        }
-    }
-    return false;
-}
-
 }  // namespace
 
 std::optional<Breakline> find_terrain_ring(std::span<const Breakline> lines, const Drape& drape,
@@ -70,7 +62,12 @@ std::optional<Breakline> find_terrain_ring(std::span<const Breakline> lines, con
         }
     }
     const std::vector<Place> hull = hull_of(std::move(places));
-    if (std::none_of(draped.begin(), draped.end(), [&](Key2 key) { return is_outside(hull, key); })) {
+    std::vector<Key2> corners;
+    for (const Place& place : hull) {
+        corners.push_back(place.key);
+    }
+    const SampleHull area(corners);
+    if (std::all_of(draped.begin(), draped.end(), [&](Key2 key) { return area.covers(key); })) {
         return std::nullopt;
     }
     Breakline ring;
