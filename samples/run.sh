@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # The main job on the sample survey: installs what is missing, builds the tinwright command and makes in
-# samples/out/ a TIN (valley.gpkg), a DEM (valley.tif), a shaded picture with the TIN's edges (valley.png), and the TIN
-# whose steepest face is the least steep possible (valley_gentle.gpkg).
+# samples/out/ a TIN (valley.gpkg), a DEM (valley.tif), a shaded picture with the TIN's edges (valley.png), the TIN
+# whose steepest face is the least steep possible (valley_gentle.gpkg), and the DEM that follows the stream and the road
+# within the surveyed area (valley_breaklines.tif), with the places where lines disagree (conflicts.gpkg).
 # TINWRIGHT_BUILD_DIR (default: build/ of the checkout) holds the build.
 set -euo pipefail
 
@@ -9,6 +10,7 @@ root=$(cd "$(dirname "$0")/.." && pwd)
 cd "$root"
 build=${TINWRIGHT_BUILD_DIR:-$root/build}/tools
 survey=samples/data/survey.csv,crs=EPSG:25832
+lines=samples/data/terrain.gpkg
 out=samples/out
 . .ci/require_packages.sh
 
@@ -36,6 +38,11 @@ run tinwright grid "$out/valley.gpkg" --resolution 1 -o "$out/valley.tif" --over
 say "the same points with the steepest face as gentle as any TIN of them can have it, proven"
 run tinwright tin "$survey" --domain trimmed --criterion slope -o "$out/valley_gentle.gpkg" --overwrite
 
+say "the same points with the stream's and the road's lines enforced, cut off at the boundary, conforming"
+run tinwright tin "$survey" --breaklines "$lines,layer=breaklines" --boundary "$lines,layer=boundary" \
+    --crossing-z mean --constraints conforming --conflicts "$out/conflicts.gpkg" -o "$out/valley_breaklines.gpkg" --overwrite
+run tinwright grid "$out/valley_breaklines.gpkg" --resolution 1 -o "$out/valley_breaklines.tif" --overwrite
+
 say "a picture: shaded, at 0.4 m, with the TIN's edges, then halved so that the edges become thin"
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -49,6 +56,6 @@ gdal_translate -q -of PNG -r average -outsize 50% 0 "$work/picture.tif" "$work/v
 mv "$work/valley.png" "$out/valley.png"
 
 say "made"
-ls -l "$out/valley.gpkg" "$out/valley.tif" "$out/valley.png" | awk '{ printf "%10d bytes  %s\n", $5, $9 }'
+ls -l "$out/valley.gpkg" "$out/valley.tif" "$out/valley.png" "$out/valley_breaklines.tif" "$out/conflicts.gpkg" | awk '{ printf "%10d bytes  %s\n", $5, $9 }'
 echo
 gdalinfo "$out/valley.tif" | grep -E '^(Driver|Size)|Pixel Size|NoData'
