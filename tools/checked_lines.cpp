@@ -86,13 +86,20 @@ constexpr std::array<Phrase, LineConflict::kKinds> kPhrases = {
      {"has no z", "", ""},
      {"is a ring that is not closed", "", ""}}};
 
+/// To six decimals: places that were made have as many digits as a double holds.
+double rounded(double value) {
+    constexpr double kSteps = 1e6;
+    return std::abs(value) < 1e9 ? std::round(value * kSteps) / kSteps : value;
+}
+
 std::string z_text(const LineConflict& conflict) {
     const bool has_a = !std::isnan(conflict.z_a);
     const bool has_b = !std::isnan(conflict.z_b);
     if (has_a && has_b) {
-        return ", z " + decimal_text(conflict.z_a) + " and " + decimal_text(conflict.z_b);
+        return ", z " + decimal_text(rounded(conflict.z_a)) + " and " + decimal_text(rounded(conflict.z_b));
     }
-    return has_a || has_b ? ", z " + decimal_text(has_a ? conflict.z_a : conflict.z_b) : std::string();
+    return has_a || has_b ? ", z " + decimal_text(rounded(has_a ? conflict.z_a : conflict.z_b))
+                          : std::string();
 }
 
 std::string text_of(const LineConflict& conflict, const PartNames& names) {
@@ -107,7 +114,8 @@ std::string text_of(const LineConflict& conflict, const PartNames& names) {
     const std::string subject =
         has_line ? names.of_line(conflict.line_a) : names.of_sample(conflict.other_sample);
     return subject + " " + (other ? phrase.with + *other + phrase.after : std::string(phrase.alone)) +
-           " at " + location_text(conflict.location) + z_text(conflict) + "\n";
+           " at " + location_text({rounded(conflict.location.x), rounded(conflict.location.y)}) +
+           z_text(conflict) + "\n";
 }
 
 /// Of each kind, the number of conflicts beyond those that are listed.

@@ -1,7 +1,6 @@
 #include "repair.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <set>
@@ -96,10 +95,8 @@ std::shared_ptr<SampleDrape> make_drape(const io::Samples& samples, const io::Li
 }
 
 bool needs_drape(const io::Lines& lines) {
-    return std::any_of(lines.lines.begin(), lines.lines.end(), [](const Breakline& line) {
-        return std::any_of(line.points.begin(), line.points.end(),
-                           [](const Point3& point) { return std::isnan(point.z); });
-    });
+    return std::any_of(lines.parts.begin(), lines.parts.end(),
+                       [](const io::LinePart& part) { return part.lacks_z; });
 }
 
 }  // namespace

@@ -226,7 +226,8 @@ void LineRepairer::add_samples_on_draped(KeyedLines& keyed) const {
         segments.visit_meeting({key, key}, [&](const LineSegments::Segment& segment) {
             const Key2 a = segments.start(segment);
             const Key2 b = segments.end(segment);
-            if (!std::isnan(segments.elevation(segment, 0.5)) || !is_on_segment(key, a, b)) {
+            const bool has_z = !std::isnan(segments.elevation(segment, 0.5));
+            if (keyed.traits[segment.line].is_draped || has_z || !is_on_segment(key, a, b)) {
                 return;
             }
             if (key == a || key == b) {
@@ -279,8 +280,8 @@ void LineRepairer::replace_work(const KeyedLines& keyed) {
     const std::vector<std::vector<Chain>> parts = StretchKeeper(old, chains).run();
     work_.clear();
     for (std::size_t i = 0; i < old.size(); ++i) {
-        // Half a line with z would be one that lacks z elsewhere.
-        const bool stays_draped = !options_.drape && old[i].traits.is_draped && lacks_z(keyed.lines[i]);
+        // With z in some places a line to be draped would be one that lacks z elsewhere.
+        const bool stays_draped = old[i].traits.is_draped && lacks_z(keyed.lines[i]);
         for (const Chain& part : parts[i]) {
             WorkLine work = old[i];
             work.line.points.clear();

@@ -18,7 +18,8 @@ struct LineRepairOptions {
     LineCheckOptions check;  ///< what counts as a conflict; `snap` is also how far points are moved
     /// Which elevation a location gets where points with different z meet there.
     CrossingPolicy crossing_z = CrossingPolicy::Mean;
-    /// Elevation at a location in CRS units, for points without z; empty: they stay without.
+    /// Elevation at a location in CRS units, for points that lack z; empty: they stay without, as those of
+    /// lines do that are to be draped later (`LineTraits::is_draped`).
     std::function<double(Point2)> drape;
 };
 
