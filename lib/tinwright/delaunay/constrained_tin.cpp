@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "tinwright/breaklines/near_lines.hpp"
+#include "tinwright/delaunay/border_points.hpp"
 #include "tinwright/delaunay/constrained_delaunay.hpp"
 #include "tinwright/delaunay/delaunay.hpp"
 #include "tinwright/delaunay/drape.hpp"
@@ -67,6 +68,7 @@ class Maker {
         merge();
         tin().mesh = make_delaunay(tin().keys, spare_vertices());
         if (tin().mesh.count_terrain() > 0) {
+            lay_borders();
             insert_pieces();
         }
         resolve_elevations();
@@ -117,7 +119,11 @@ class Maker {
         const auto is_plain = [scale](Key2 key) {
             return std::floor(key.x / scale) * scale == key.x && std::floor(key.y / scale) * scale == key.y;
         };
-        if (options_.wants_fine_lattice || !std::all_of(noded_.keys.begin(), noded_.keys.end(), is_plain)) {
+        const bool has_draped_border =
+            std::any_of(noded_.pieces.begin(), noded_.pieces.end(),
+                        [this](const NodedPiece& piece) { return is_draped_border(piece); });
+        if (options_.wants_fine_lattice || has_draped_border ||
+            !std::all_of(noded_.keys.begin(), noded_.keys.end(), is_plain)) {
             tin().lattice = fine;
             for (Key2& key : sample_vertices_.keys) {
                 key = {key.x * scale, key.y * scale};
@@ -143,19 +149,61 @@ class Maker {
         }
     }
 
-    // Both sets of vertices are in the curve's order; where they meet, a sample and lines share a vertex.
+    [[nodiscard]] bool is_draped_border(const NodedPiece& piece) const {
+        return !is_ring(piece.line) && lines_[piece.line].role != LineRole::Breakline &&
+               std::isnan(noded_.z[piece.a]) && std::isnan(noded_.z[piece.b]);
+    }
+
+    // A border takes nothing from the terrain: where it is draped, it gets a vertex at every edge it crosses,
+    // so that the surface inside stays as it was.
+    void lay_borders() {
+        std::vector<Segment> borders;
+        for (const NodedPiece& piece : noded_.pieces) {
+            if (is_draped_border(piece)) {
+                borders.push_back({vertex_of_[piece.a], vertex_of_[piece.b]});
+            }
+        }
+        if (borders.empty()) {
+            return;
+        }
+        border_points_ = find_border_points(tin().mesh, tin().keys, borders);
+        merge();
+        tin().mesh = make_delaunay(tin().keys, spare_vertices());
+    }
+
+    // All sets of vertices are in the curve's order; where they meet, a sample and lines share a vertex.
     void merge() {
         const auto& keys = sample_vertices_.keys;
         const auto& noded = noded_.keys;
         vertex_of_.resize(noded.size());
-        const std::size_t most = keys.size() + noded.size() + spare_vertices();
+        tin().keys.clear();
+        tin().z.clear();
+        tin().sample.clear();
+        draped_.clear();
+        meetings_.clear();
+        result_.lines.crossing_vertices = 0;
+        const std::size_t most = keys.size() + noded.size() + border_points_.size() + spare_vertices();
         tin().keys.reserve(most);
         tin().z.reserve(most);
         tin().sample.reserve(most);
         std::size_t i = 0;
         std::size_t k = 0;
-        while (i < keys.size() || k < noded.size()) {
+        auto border_point = border_points_.begin();
+        for (;;) {
             const VertexId v{static_cast<std::uint32_t>(tin().keys.size())};
+            const bool has_border_point = border_point != border_points_.end() &&
+                                          (i == keys.size() || precedes_on_curve(*border_point, keys[i])) &&
+                                          (k == noded.size() || precedes_on_curve(*border_point, noded[k]));
+            if (has_border_point) {
+                tin().keys.push_back(*border_point++);
+                tin().z.push_back(kDraped);
+                tin().sample.push_back(Tin::kCrossing);
+                draped_.push_back(v);
+                continue;
+            }
+            if (i == keys.size() && k == noded.size()) {
+                return;
+            }
             const bool has_sample =
                 i < keys.size() && (k == noded.size() || !precedes_on_curve(noded[k], keys[i]));
             const bool has_line = k < noded.size() && (!has_sample || noded[k] == keys[i]);
@@ -329,8 +377,11 @@ class Maker {
                 outside.push_back(v);
             }
         }
-        for (std::uint32_t k = 0, i = 0; k < vertex_of_.size() && i < outside.size(); ++k) {
-            if (vertex_of_[k] != outside[i]) {
+        for (std::uint32_t k = 0, i = 0; k < vertex_of_.size(); ++k) {
+            while (i < outside.size() && outside[i] < vertex_of_[k]) {
+                ++i;  // of a border, between its points
+            }
+            if (i == outside.size() || vertex_of_[k] != outside[i]) {
                 continue;
             }
             LineConflict conflict;
@@ -340,7 +391,6 @@ class Maker {
             conflict.location = tin().lattice.position(tin().key(outside[i]));
             conflict.z_a = tin().z[outside[i].value];
             result_.lines.conflicts.push_back(conflict);
-            ++i;
         }
     }
 
@@ -380,6 +430,7 @@ class Maker {
     NodedLines noded_;
     std::vector<VertexId> vertex_of_;        // of the noded vertices
     std::vector<std::uint32_t> first_line_;  // through each of the noded vertices
+    std::vector<Key2> border_points_;        // vertices of draped borders, between those of their own
     std::vector<VertexId> draped_;  // vertices whose elevation is yet to be taken from the samples' TIN
     std::vector<Meeting> meetings_;
     ConstrainedTin result_;
