@@ -255,14 +255,10 @@ class Noding {
     /// With what the lines, which come by there, say of the elevation.
     void add_at(Kind kind, Action action, std::uint32_t vertex, std::uint32_t line_a, std::uint32_t line_b) {
         const CrossingElevations elevations(lines_, points_, network_, rounded_, options_);
-        const auto z_of = [&](std::uint32_t line, bool from_back) {
-            double z = kNoZ;
-            for (const LineVisit& visit : visits_.at(vertex)) {
-                if (visit.line == line && (std::isnan(z) || from_back)) {
-                    z = elevations.elevation(visit, vertex);
-                }
-            }
-            return z;
+        const auto z_of = [&](std::uint32_t line, bool is_second) {
+            const auto visits = std::ranges::equal_range(visits_.at(vertex), line, {}, &LineVisit::line);
+            return visits.empty() ? kNoZ
+                                  : elevations.elevation(is_second ? visits.back() : visits.front(), vertex);
         };
         const double z_b = line_b == LineConflict::kNone ? kNoZ : z_of(line_b, line_a == line_b);
         conflicts_.push_back({vertex, kind, action, line_a, line_b, z_of(line_a, false), z_b});

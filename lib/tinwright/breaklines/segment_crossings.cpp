@@ -196,6 +196,9 @@ class CrossingSearch {
     }
 
     void try_pair(std::uint32_t p, std::uint32_t q, std::vector<Key2>& found) {
+        if (share_an_end(network_.segments[p], network_.segments[q])) {
+            return;
+        }
         const Key2 a = network_.a(p);
         const Key2 b = network_.b(p);
         const Key2 c = network_.a(q);
@@ -209,6 +212,10 @@ class CrossingSearch {
             mark_rounded(p);
             mark_rounded(q);
         }
+    }
+
+    static bool share_an_end(const LineSegment& p, const LineSegment& q) {
+        return p.a == q.a || p.a == q.b || p.b == q.a || p.b == q.b;
     }
 
     /// From any task: all of them write the same.

@@ -14,8 +14,8 @@ namespace tinwright {
 namespace {
 
 constexpr std::size_t kBlock = 1024;  // vertices of a task
-constexpr std::size_t kFewVertices = 4;
-constexpr std::size_t kFewSegments = 6;
+constexpr std::size_t kFewVertices = 8;
+constexpr std::size_t kFewSegments = 8;
 
 double half_perimeter(const KeyBox& box) { return (box.high.x - box.low.x) + (box.high.y - box.low.y); }
 
