@@ -80,6 +80,14 @@ struct LineVisits {
     [[nodiscard]] std::span<const LineVisit> at(std::uint32_t vertex) const {
         return std::span(all).subspan(start[vertex], start[vertex + 1] - start[vertex]);
     }
+    /// Those of one line. O(log) of all there.
+    [[nodiscard]] std::span<const LineVisit> of_line(std::uint32_t line, std::uint32_t vertex) const {
+        const std::span<const LineVisit> visits = at(vertex);
+        const auto is_before = [line](const LineVisit& visit) { return visit.line < line; };
+        const auto is_not_after = [line](const LineVisit& visit) { return visit.line <= line; };
+        const auto first = std::partition_point(visits.begin(), visits.end(), is_before);
+        return {first, std::partition_point(first, visits.end(), is_not_after)};
+    }
 };
 
 /// O(stops).

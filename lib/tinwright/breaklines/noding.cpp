@@ -256,7 +256,7 @@ class Noding {
     void add_at(Kind kind, Action action, std::uint32_t vertex, std::uint32_t line_a, std::uint32_t line_b) {
         const CrossingElevations elevations(lines_, points_, network_, rounded_, options_);
         const auto z_of = [&](std::uint32_t line, bool is_second) {
-            const auto visits = std::ranges::equal_range(visits_.at(vertex), line, {}, &LineVisit::line);
+            const std::span<const LineVisit> visits = visits_.of_line(line, vertex);
             return visits.empty() ? kNoZ
                                   : elevations.elevation(is_second ? visits.back() : visits.front(), vertex);
         };
