@@ -96,14 +96,14 @@ void CommandCheck::setup(const std::vector<std::string>& arguments) {
         make_parser("check", "Audits TINs, lines and samples; lists what is wrong, and repairs lines.",
                     "SOURCE... [-o FILE] [options]",
                     {"tinwright check tin.gpkg --criterion slope",
-                     "tinwright check survey.csv roads.gpkg --boundary site.gpkg -o conflicts.gpkg",
+                     "tinwright check survey.csv roads.gpkg --boundary site.gpkg -o found.gpkg",
                      "tinwright check roads.gpkg --repair -o clean"});
     sources.add_to(*parser);
     lines.add_sources_to(*parser);
     audit.add_to(*parser);
     crs.add_to(*parser);
     optimality.add_to(*parser);
-    output.add_to(*parser, "write what is found as points; the folder of --repair",
+    output.add_to(*parser, "write what is found as points, or the folder",
                   "output driver (default: from the extension)");
     talk.add_to(*parser);
     parse_options(*parser, arguments);
