@@ -268,4 +268,47 @@ TEST_SUITE("mesh/mesh_edit") {
             REQUIRE(constrained_edges(tin.mesh) == constrained);
         }
     }
+
+    TEST_CASE("splitting edges and faces keeps the mesh sound and both parts as they were marked") {
+        for (int seed = 1; seed <= cases(50); ++seed) {
+            CAPTURE(seed);
+            Random random(static_cast<std::uint64_t>(seed));
+            Tin tin = delaunay_tin(key_families()[0].make(random, 30));
+            constrain_at_random(random, tin, 15);
+            TriangleMesh& mesh = tin.mesh;
+            for (int i = 0; i < 40; ++i) {
+                const FaceId f{static_cast<std::uint32_t>(
+                    random.integer(0, static_cast<std::int64_t>(mesh.slot_count()) - 1))};
+                const std::size_t vertices = mesh.vertex_count();
+                const std::size_t slots = mesh.slot_count();
+                const std::size_t edges = constrained_edges(mesh).size();
+                if (random.integer(0, 1) == 0 && !mesh.is_ghost(f)) {
+                    REQUIRE(split_face(mesh, f).value == vertices);
+                    REQUIRE(constrained_edges(mesh).size() == edges);
+                } else {
+                    const HalfEdgeId h = half_edge(f, 0);  // of a ghost face the one on the hull
+                    const VertexId a = mesh.origin(h);
+                    const VertexId b = mesh.destination(h);
+                    const bool was_constrained = mesh.is_constrained(h);
+                    const VertexId m = split_edge(mesh, h);
+                    REQUIRE(m.value == vertices);
+                    REQUIRE(mesh.origin(h) == a);
+                    REQUIRE(mesh.destination(h) == m);
+                    REQUIRE_FALSE(find_half_edge(mesh, a.value, b.value).has_value());
+                    REQUIRE(mesh.is_constrained(h) == was_constrained);
+                    REQUIRE(constrained_edges(mesh).size() == edges + (was_constrained ? 1U : 0U));
+                }
+                REQUIRE(mesh.slot_count() == slots + 2);
+                REQUIRE(check_mesh(mesh).is_clean());
+            }
+        }
+    }
+
+    TEST_CASE("renumbering changes corners and nothing else") {
+        TriangleMesh mesh = mesh_of(4, {0, 1, 2, 0, 2, 3});
+        const std::vector<VertexId> new_ids = {{2}, {0}, {3}, {1}};
+        renumber_vertices(mesh, new_ids);
+        CHECK(terrain_of(mesh) == terrain_of(mesh_of(4, {2, 0, 3, 2, 3, 1})));
+        CHECK(check_mesh(mesh).is_clean());
+    }
 }

@@ -12,6 +12,7 @@
 #include "tinwright/delaunay/constrained_delaunay.hpp"
 #include "tinwright/delaunay/delaunay.hpp"
 #include "tinwright/delaunay/drape.hpp"
+#include "tinwright/delaunay/sample_meetings.hpp"
 #include "tinwright/delaunay/terrain_ring.hpp"
 #include "tinwright/geometry/constructions.hpp"
 #include "tinwright/geometry/curve.hpp"
@@ -226,7 +227,7 @@ class Maker {
             if (has_line) {
                 vertex_of_[k] = v;
                 if (has_sample && !std::isnan(noded_.z[k])) {
-                    meetings_.push_back({v, noded_.z[k], static_cast<std::uint32_t>(k), true});
+                    meetings_.push_back({v, noded_.z[k], first_line_[k]});
                 }
             }
             i += has_sample ? 1U : 0U;
@@ -281,90 +282,16 @@ class Maker {
         const auto way = [&](VertexId v) { return inner_product(tin().key(v), from, to) / length; };
         const VertexId v = way(edge.a) < way(edge.b) ? edge.b : edge.a;
         if (v != segment.a && v != segment.b) {
-            meetings_.push_back({v, z_a + way(v) * (z_b - z_a), piece.line, false});
+            meetings_.push_back({v, z_a + way(v) * (z_b - z_a), piece.line});
         }
-    }
-
-    // A sample and a line at one vertex.
-    struct Meeting {
-        VertexId vertex;
-        double z;  // of the line
-        std::uint32_t number;
-        bool is_noded;  // `number` is a noded vertex, else a line
-        auto operator<=>(const Meeting&) const = default;
-    };
-
-    [[nodiscard]] std::uint32_t line_of(const Meeting& meeting) const {
-        return meeting.is_noded ? first_line_[meeting.number] : meeting.number;
     }
 
     void resolve_elevations() {
-        std::sort(meetings_.begin(), meetings_.end());
-        std::size_t clashes = 0;
-        std::optional<LineConflict> first_clash;
-        for (auto first = meetings_.begin(); first != meetings_.end();) {
-            const auto last = std::find_if(first, meetings_.end(),
-                                           [&](const Meeting& m) { return m.vertex != first->vertex; });
-            if (const std::optional<LineConflict> clash = resolve({first, last})) {
-                ++clashes;
-                first_clash = first_clash ? first_clash : clash;
-                result_.lines.conflicts.push_back(*clash);
-            }
-            first = last;
-        }
-        if (clashes > 0 && options_.duplicates.policy == DuplicatePolicy::Error) {
-            const bool is_one = clashes == 1;
-            std::vector<std::size_t> lines;
-            if (!is_ring(first_clash->line_a)) {
-                lines.push_back(first_clash->line_a);
-            }
-            throw BreaklineError(
-                std::to_string(clashes) +
-                    (is_one ? " sample lies on a line that has another elevation there, at "
-                            : " samples lie on lines that have another elevation there, the first at ") +
-                    location_text(first_clash->location) + ": z " + decimal_text(first_clash->z_b) +
-                    " of the sample, " + decimal_text(first_clash->z_a) +
-                    " of the line; say which to take with --duplicates first|last|min|max|mean|median, or "
-                    "allow for the difference with --duplicate-tolerance",
-                lines, {first_clash->sample});
-        }
-    }
-
-    // One elevation for a sample's vertex and the lines through it; tells when they clash.
-    std::optional<LineConflict> resolve(std::span<const Meeting> meetings) {
-        const VertexId v = meetings.front().vertex;
-        const double of_sample = tin().z[v.value];
-        std::vector<double> sorted = {of_sample};
-        for (const Meeting& meeting : meetings) {
-            sorted.push_back(meeting.z);
-        }
-        std::sort(sorted.begin(), sorted.end());
-        const bool clashes = sorted.back() - sorted.front() > options_.duplicates.tolerance;
-        (clashes ? result_.duplicates.conflicting : result_.duplicates.equal) += 1;
-        if (options_.duplicates.policy == DuplicatePolicy::Last) {
-            tin().z[v.value] = std::max_element(meetings.begin(), meetings.end(),
-                                                [this](const Meeting& a, const Meeting& b) {
-                                                    return line_of(a) < line_of(b);
-                                                })
-                                   ->z;
-        } else if (options_.duplicates.policy != DuplicatePolicy::First) {
-            tin().z[v.value] = choose_elevation(options_.duplicates.policy, sorted);
-        }
-        if (!clashes) {
-            return std::nullopt;
-        }
-        LineConflict conflict;
-        conflict.kind = LineConflict::Kind::SampleOnLine;
-        conflict.action = LineConflict::Action::Chosen;
-        conflict.sample = tin().sample[v.value];
-        conflict.location = tin().lattice.position(tin().key(v));
-        conflict.z_b = of_sample;
-        const auto other = std::find_if(meetings.begin(), meetings.end(),
-                                        [&](const Meeting& m) { return m.z != of_sample; });
-        const Meeting& meeting = other == meetings.end() ? meetings.front() : *other;
-        conflict.z_a = meeting.z;
-        conflict.line_a = line_of(meeting);
-        return conflict;
+        std::vector<LineConflict> clashes =
+            resolve_meetings(tin(), std::move(meetings_), options_.duplicates, result_.duplicates);
+        // The ring around the terrain is nobody's line, and has the elevations of what is on it.
+        std::erase_if(clashes, [this](const LineConflict& clash) { return is_ring(clash.line_a); });
+        result_.lines.conflicts.insert(result_.lines.conflicts.end(), clashes.begin(), clashes.end());
     }
 
     void lay_draped() {
@@ -432,7 +359,7 @@ class Maker {
     std::vector<std::uint32_t> first_line_;  // through each of the noded vertices
     std::vector<Key2> border_points_;        // vertices of draped borders, between those of their own
     std::vector<VertexId> draped_;  // vertices whose elevation is yet to be taken from the samples' TIN
-    std::vector<Meeting> meetings_;
+    std::vector<SampleMeeting> meetings_;
     ConstrainedTin result_;
 };
 

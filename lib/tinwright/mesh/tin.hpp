@@ -26,7 +26,7 @@ struct LineTrace {
 struct Tin {
     /// `sample` of a Steiner point.
     static constexpr std::uint32_t kNoSample = 0xFFFFFFFFU;
-    /// `sample` of a vertex made where lines cross.
+    /// `sample` of a vertex made where lines cross, or where a draped border crosses an edge of the TIN.
     static constexpr std::uint32_t kCrossing = 0xFFFFFFFEU;
 
     Lattice lattice;
