@@ -65,8 +65,9 @@ std::vector<BlockingDisk> full_disks(std::span<const Key2> keys, std::span<const
         }
     };
     label_neighbors({0});
-    for (std::size_t next = 0; next < disks.size(); ++next) {
-        label_neighbors(disks[next].vertex);
+    std::size_t next = 0;
+    while (next < disks.size()) {
+        label_neighbors(disks[next++].vertex);
     }
     return disks;
 }

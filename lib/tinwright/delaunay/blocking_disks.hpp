@@ -24,8 +24,8 @@ struct Offset {
 struct BlockingDisk {
     static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
 
-    VertexId vertex;      ///< j
-    VertexId towards;     ///< i_j
+    VertexId vertex{};    ///< j
+    VertexId towards{};   ///< i_j
     Offset center;        ///< from the key of `vertex`
     double radius = 0;    ///< steps of the lattice
     bool is_full = true;  ///< whether the circle goes through `towards`, too

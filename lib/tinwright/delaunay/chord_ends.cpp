@@ -92,31 +92,35 @@ class ChordsOfDisk {
     // What to take off the power of ends: none of them is to leave the disk, but those at vertices stay where
     // they are, and so does the power there.
     [[nodiscard]] Level find_level() const {
-        Level level{power(to_vertex_), power(disk_.center)};
+        const Level level{power(to_vertex_), power(disk_.center)};
         const bool has_vertex = ends_at(disk_.vertex);
         const bool has_other = has_other_ && ends_at(disk_.towards);
-        if (has_vertex && has_other) {
-            return level;
+        if (has_vertex) {
+            return {level.at_vertex, has_other ? level.at_other : tilt(level.at_vertex, level.at_other, 1)};
         }
-        double most = has_vertex ? level.at_other : level.at_vertex;
+        if (has_other) {
+            return {tilt(level.at_other, level.at_vertex, -1), level.at_other};
+        }
+        double most = std::max(level.at_vertex, level.at_other);
+        for (const CenteredChord& chord : chords_) {
+            most = std::max({most, power(chord.begin), power(chord.end)});
+        }
+        return {most, most};
+    }
+
+    // The level opposite of a side of the circle (1 or -1), given the one there, at which no power exceeds
+    // the level; ends so close to that side that they ask for too much do not count.
+    [[nodiscard]] double tilt(double fixed, double least, int side) const {
+        double level = least;
         for (const CenteredChord& chord : chords_) {
             for (const Offset place : {chord.begin, chord.end}) {
-                const double here = power(place);
-                if (has_vertex || has_other) {
-                    const double share = 0.5 * (has_vertex ? 1 - along(place) : 1 + along(place));
-                    const double fixed = has_vertex ? level.at_vertex : level.at_other;
-                    if (share > kShare) {
-                        most = std::max(most, fixed + (here - fixed) / share);
-                    }
-                } else {
-                    most = std::max(most, here);
+                const double share = 0.5 * (1 - side * along(place));
+                if (share > kShare) {
+                    level = std::max(level, fixed + (power(place) - fixed) / share);
                 }
             }
         }
-        if (has_vertex) {
-            return {level.at_vertex, most};
-        }
-        return {most, has_other ? level.at_other : most};
+        return level;
     }
 
     [[nodiscard]] bool ends_at(VertexId v) const {

@@ -18,9 +18,10 @@ namespace tinwright {
 struct CirclePoint {
     static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
 
-    Key2 key;                 ///< rounded to the lattice
-    std::uint32_t line_edge;  ///< the line's edge that meets the circle there; kNone: another circle does
-    std::uint32_t disk;
+    Key2 key{};  ///< rounded to the lattice
+    std::uint32_t line_edge =
+        kNone;  ///< the line's edge that meets the circle there; kNone: another circle does
+    std::uint32_t disk = 0;
     bool is_done = false;  ///< whether it has become one, or cannot
 };
 

@@ -47,7 +47,8 @@ class Propagation {
           lines_(find_lines_in_disks(disks_, tin_.keys, inserter.line_edges(), find_hull_edges(inserter))),
           points_(disks_, tin_.keys, lines_),
           is_cut_(lines_.edges.size()),
-          chains_(lines_.unprotected.size()) {
+          chains_(lines_.unprotected.size()),
+          is_stale_(2 * lines_.unprotected.size(), true) {
         report_.disks = disks_.disks().size();
     }
 
@@ -82,6 +83,11 @@ class Propagation {
 
     // Projects what lies in the disks of the parts of an unprotected edge, as seen from one side, onto it.
     void export_onto(const Export& exported) {
+        const std::size_t side = 2 * std::size_t{exported.edge} + (exported.is_from_left ? 0U : 1U);
+        if (!is_stale_[side]) {
+            return;
+        }
+        is_stale_[side] = false;
         const std::uint32_t line_edge = lines_.unprotected[exported.edge].line_edge;
         if (!is_cut_[line_edge]) {
             const LineInDisks& edge = lines_.edges[line_edge];
@@ -112,6 +118,35 @@ class Propagation {
         }
     }
 
+    [[nodiscard]] double share_at(const LineInDisks& edge, VertexId v) const {
+        return inner_product(key(v), key(edge.p), key(edge.q)) /
+               inner_product(key(edge.q), key(edge.p), key(edge.q));
+    }
+
+    // What has other faces beside it than before has to be looked at again.
+    void mark_touched() {
+        for (const HalfEdgeId h : inserter_.touched()) {
+            if (!tin_.mesh.is_constrained(h)) {
+                continue;
+            }
+            const VertexId a = tin_.mesh.origin(h);
+            const VertexId b = tin_.mesh.destination(h);
+            const std::uint32_t line_edge = inserter_.line_edge_of(a, b);
+            const LineInDisks& edge = lines_.edges[line_edge];
+            const auto begin = lines_.unprotected.begin();
+            auto found = begin + edge.first;
+            if (is_cut_[line_edge]) {
+                const double middle = 0.5 * (share_at(edge, a) + share_at(edge, b));
+                found = std::partition_point(found, begin + edge.last, [middle](const UnprotectedEdge& part) {
+                    return part.to < middle;
+                });
+            }
+            if (found != begin + edge.last) {
+                std::fill_n(is_stale_.begin() + 2 * (found - begin), 2, true);
+            }
+        }
+    }
+
     // Whether the apex of the half-edge's face lies in the disk that the edge is a diameter of.
     [[nodiscard]] bool is_disturbed(HalfEdgeId h) const {
         const TriangleMesh& mesh = tin_.mesh;
@@ -129,6 +164,8 @@ class Propagation {
     void cut(std::uint32_t line_edge) {
         is_cut_[line_edge] = true;
         const LineInDisks& edge = lines_.edges[line_edge];
+        std::fill(is_stale_.begin() + 2 * std::ptrdiff_t{edge.first},
+                  is_stale_.begin() + 2 * std::ptrdiff_t{edge.last}, true);
         // What is closer than a step to the place before, or to q, is that.
         std::vector<double> shares{0};
         const auto add = [&](double share) {
@@ -176,9 +213,8 @@ class Propagation {
         }
         Place place = a;
         if (made) {
-            const Key2 p = key(edge.p);
-            const Key2 q = key(edge.q);
-            place = {*made, inner_product(key(*made), p, q) / inner_product(q, p, q)};
+            mark_touched();
+            place = {*made, share_at(edge, *made)};
             put_between(edge, shares, vertices, begin, middle, a, place);
             ++report_.circle_vertices;
         } else {
@@ -206,6 +242,7 @@ class Propagation {
             const std::optional<VertexId> made =
                 inserter_.split(h, share + shift(c, a, b) / std::sqrt(square));
             if (made) {
+                mark_touched();
                 ++report_.propagated_vertices;
                 report_.projections.emplace_back(*made, c);
                 sources_.resize(steiner_count(), kGhostVertex);
@@ -278,7 +315,10 @@ class Propagation {
     void put_in(CirclePoint& point, VertexId near) {
         point.is_done = true;
         if (point.line_edge == CirclePoint::kNone) {
-            report_.touching_vertices += inserter_.insert(point.key, near) ? 1U : 0U;
+            if (inserter_.insert(point.key, near)) {
+                mark_touched();
+                ++report_.touching_vertices;
+            }
         } else if (!is_cut_[point.line_edge]) {
             cut(point.line_edge);
         }
@@ -293,6 +333,7 @@ class Propagation {
     CirclePoints points_;
     std::vector<bool> is_cut_;                   // of each edge of a line
     std::vector<std::vector<VertexId>> chains_;  // of each unprotected edge, once it is cut out
+    std::vector<bool> is_stale_;     // of each side of each unprotected edge: faces there have changed
     std::vector<VertexId> sources_;  // of each Steiner point that is a projection; the ghost vertex: of none
     BlockingReport report_;
 };

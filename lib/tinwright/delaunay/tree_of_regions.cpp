@@ -177,11 +177,11 @@ std::vector<Export> order_exports(const BlockingDisks& disks, std::span<const Ke
     std::vector<Export> order;
     order.reserve(side_count);
     const auto add = [&](std::uint32_t side) { order.push_back({side / 2, side % 2 == 0}); };
-    for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) {
-        if (node->to_parent != kNone) {
-            add(node->to_parent);
+    std::for_each(nodes.rbegin(), nodes.rend(), [&](const Regions::Node& node) {
+        if (node.to_parent != kNone) {
+            add(node.to_parent);
         }
-    }
+    });
     for (const Regions::Node& node : nodes) {
         for (const std::uint32_t side : regions.sides_of(node.region)) {
             if (side != node.to_parent) {
