@@ -29,14 +29,18 @@ struct BlockingReport {
 /// as in the thesis:
 /// - Points on circles are put in on demand only, so the vertices are a part of those of the thesis. An edge
 ///   of a line is left whole until a vertex lies in the disk that it is a diameter of. Where circles touch
-///   there is a vertex only if a projection would else pass there from one face of the walls into another.
+///   there is a vertex only if a projection would else pass there from one face of the walls into another:
+///   Lemma 6.6 needs no more, and Lemma 6.5, which says that nothing is overlooked, none of them.
 /// - Instead of the boundaries of regions, the constrained Delaunay triangulation is asked for the vertex
 ///   to project: of all that see an unprotected edge from one side, the apex of the face there sees it
 ///   under the greatest angle, so it lies in the edge's disk if any of them does. That makes stages 1 and 2
-///   of 6.3.2 superfluous; stage 3 is repeated until nothing changes, as it may after points on demand.
+///   of 6.3.2 superfluous; stage 3 is repeated where something has changed since.
 /// - Edges on the hull are left alone: they are Delaunay anyway.
-/// - Points are rounded to the lattice, which the thesis leaves open (6.4). What that breaks is left to the
-///   caller; that it comes to an end all the same is up to the budget.
+/// - Points are rounded to the lattice, which the thesis leaves open (6.4). Much of what is exact there is a
+///   tie that rounding would decide at random: many points on one circle, and right angles. Hence ends of
+///   chords are moved a little (`move_chord_ends`), projections go some steps beyond the right angle where
+///   edges meet, and none leads back to where it came from (Lemma 6.3). Where lines come within some steps
+///   of each other, edges may stay open all the same; they are left to the caller.
 ///
 /// `max_steiner`: no more vertices than that are made. `inserter`: nothing put in yet.
 /// Throws Cancelled. O((n + s) log n) for s Steiner points in practice.
