@@ -76,6 +76,7 @@ LinesSummary summarize_lines(const LineOptions& options, const io::Lines& lines,
     counts.crossing_vertices = report.lines.crossing_vertices;
     counts.draped_vertices = report.lines.draped_vertices;
     counts.open_edges = report.conforming ? report.conforming->open_edges : 0;
+    counts.is_budget_spent = report.conforming && report.conforming->is_budget_spent;
     counts.conflicts = count_conflicts(report.lines.conflicts);
     return summary;
 }
@@ -176,7 +177,10 @@ std::vector<std::string> lines_warnings(const LinesSummary& summary) {
     }
     return {"the TIN is valid but does not conform: " +
             counted(summary.counts->open_edges, "edge of a line lies", "edges of lines lie") +
-            " in no empty disk; a higher --max-steiner may help"};
+            " in no empty disk; " +
+            (summary.counts->is_budget_spent
+                 ? "--max-steiner is used up, a higher one may help"
+                 : "lines run too close together there for the lattice, --snap joins them")};
 }
 
 }  // namespace tinwright::tools

@@ -35,7 +35,8 @@ struct LinesSummary {
         std::size_t edges = 0;    ///< distinct edges that lines run along
         std::size_t crossing_vertices = 0;
         std::size_t draped_vertices = 0;
-        std::size_t open_edges = 0;  ///< without an empty disk, when a conforming TIN was asked for
+        std::size_t open_edges = 0;    ///< without an empty disk, when a conforming TIN was asked for
+        bool is_budget_spent = false;  ///< more Steiner points would help
         ConflictCounts conflicts{};
     };
     std::optional<Counts> counts;

@@ -281,6 +281,7 @@ ConformingReport make_conforming(Tin& tin, const ConformingOptions& options) {
     inserter.finish();
     report.steiner_vertices = tin.vertex_count() - old_count;
     report.is_conforming = report.open_edges == 0;
+    report.is_budget_spent = !report.is_conforming && report.steiner_vertices >= max_steiner;
     return report;
 }
 

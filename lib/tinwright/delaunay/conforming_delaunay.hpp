@@ -25,7 +25,8 @@ struct ConformingReport {
     std::size_t steiner_vertices = 0;
     /// Whether every edge of a line has an empty disk: some circle through its ends with no vertex inside.
     bool is_conforming = true;
-    std::size_t open_edges = 0;  ///< edges without one, when stopped by the budget or by the lattice's step
+    std::size_t open_edges = 0;         ///< edges without one
+    bool is_budget_spent = false;       ///< they are open for want of budget; else the lattice leaves no room
     std::size_t blocking_disks = 0;     ///< Blocking only
     std::size_t blocking_vertices = 0;  ///< Blocking only: of the Steiner points, those on blocking circles
 };
