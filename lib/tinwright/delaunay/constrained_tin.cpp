@@ -120,6 +120,9 @@ class Maker {
         const auto is_plain = [scale](Key2 key) {
             return std::floor(key.x / scale) * scale == key.x && std::floor(key.y / scale) * scale == key.y;
         };
+        for (std::uint32_t i = 0; i <= lines_.size(); ++i) {
+            is_draped_.push_back(is_draped_line(i));
+        }
         const bool has_draped_border =
             std::any_of(noded_.pieces.begin(), noded_.pieces.end(),
                         [this](const NodedPiece& piece) { return is_draped_border(piece); });
@@ -136,9 +139,11 @@ class Maker {
             }
         }
         first_line_.assign(noded_.keys.size(), LineConflict::kNone);
+        is_on_ring_.assign(noded_.keys.size(), false);
         for (const NodedPiece& piece : noded_.pieces) {
             for (const std::uint32_t end : {piece.a, piece.b}) {
                 first_line_[end] = std::min(first_line_[end], piece.line);
+                is_on_ring_[end] = is_on_ring_[end] || is_ring(piece.line);
             }
         }
         for (LineConflict& conflict : noded_.conflicts) {
@@ -150,9 +155,14 @@ class Maker {
         }
     }
 
+    // A line that is draped all along, whatever it has got where it meets others.
+    [[nodiscard]] bool is_draped_line(std::uint32_t number) const {
+        return !is_ring(number) && std::all_of(lines_[number].points.begin(), lines_[number].points.end(),
+                                               [](const Point3& p) { return std::isnan(p.z); });
+    }
+
     [[nodiscard]] bool is_draped_border(const NodedPiece& piece) const {
-        return !is_ring(piece.line) && lines_[piece.line].role != LineRole::Breakline &&
-               std::isnan(noded_.z[piece.a]) && std::isnan(noded_.z[piece.b]);
+        return is_draped_[piece.line] && lines_[piece.line].role != LineRole::Breakline;
     }
 
     // A border takes nothing from the terrain: where it is draped, it gets a vertex at every edge it crosses,
@@ -219,7 +229,7 @@ class Maker {
                 tin().sample.push_back(is_crossing
                                            ? Tin::kCrossing
                                            : static_cast<std::uint32_t>(samples_.size()) + noded_.origin[k]);
-                result_.lines.crossing_vertices += is_crossing ? 1U : 0U;
+                result_.lines.crossing_vertices += is_crossing && !is_on_ring_[k] ? 1U : 0U;
                 if (std::isnan(noded_.z[k])) {
                     draped_.push_back(v);
                 }
@@ -250,10 +260,16 @@ class Maker {
 
         std::vector<LineTrace>& traces = tin().traces;
         for (const SegmentEdge& edge : edges) {
+            const NodedPiece* with_elevation = nullptr;
             for (std::size_t p = first_piece[edge.segment]; p < first_piece[edge.segment + 1]; ++p) {
                 traces.push_back({edge.a, edge.b, pieces[p].line, pieces[p].runs});
+                if (with_elevation == nullptr && !is_draped_[pieces[p].line]) {
+                    with_elevation = &pieces[p];
+                }
             }
-            meet_samples(edge, segments[edge.segment], pieces[first_piece[edge.segment]]);
+            if (with_elevation != nullptr) {
+                meet_samples(edge, segments[edge.segment], *with_elevation);
+            }
         }
         std::sort(traces.begin(), traces.end());
         // Collinear pieces that overlap share edges.
@@ -357,6 +373,8 @@ class Maker {
     NodedLines noded_;
     std::vector<VertexId> vertex_of_;        // of the noded vertices
     std::vector<std::uint32_t> first_line_;  // through each of the noded vertices
+    std::vector<bool> is_on_ring_;           // each of the noded vertices
+    std::vector<bool> is_draped_;            // each line, and the ring
     std::vector<Key2> border_points_;        // vertices of draped borders, between those of their own
     std::vector<VertexId> draped_;  // vertices whose elevation is yet to be taken from the samples' TIN
     std::vector<SampleMeeting> meetings_;
