@@ -26,7 +26,7 @@ struct CleanLine {
 /// A place where a line was put right: ZeroLength, Spike or OpenRing.
 struct LineFault {
     LineConflict::Kind kind = LineConflict::Kind::ZeroLength;
-    Key2 key;
+    Key2 key{};
     double z_a = std::numeric_limits<double>::quiet_NaN();  ///< of the point kept, or of the spike's tip
     double z_b = std::numeric_limits<double>::quiet_NaN();  ///< ZeroLength: of a point merged with it,
                                                             ///< another z if any has one

@@ -21,7 +21,7 @@ namespace tinwright {
 /// A conflict whose location is not filled in yet.
 struct FoundConflict {
     LineConflict conflict;
-    Key2 key;
+    Key2 key{};
 };
 
 /// A point of a line.
@@ -33,8 +33,8 @@ struct LinePoint {
 
 /// A place where a point comes near another line that it is not on: the nearest place of that line.
 struct Approach {
-    LinePoint point;
-    LineSegments::Segment segment;
+    LinePoint point{};
+    LineSegments::Segment segment{};
     SegmentDistance distance;
     std::optional<LinePoint> vertex;  ///< the nearer end of the segment, if that is within the distance too
 };

@@ -105,6 +105,7 @@ bool snap_near_misses(KeyedLines& keyed) {
         return true;
     }
     std::vector<PointInsertion> insertions;
+    insertions.reserve(approaches.size());
     for (const Approach& approach : approaches) {
         insertions.push_back({approach.segment.line, approach.segment.index, approach.distance.fraction,
                               key_of(approach.point),

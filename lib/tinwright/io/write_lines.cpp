@@ -70,9 +70,9 @@ class GeometryChanger {
     void collect(const OGRGeometry& geometry);
     void collect_polygon(const OGRPolygon& polygon);
     [[nodiscard]] const Curves& next_curve() {
-        static const Curves kNone;
+        static const Curves nothing;
         const auto found = lines_.curves.find({feature_, next_++});
-        return found == lines_.curves.end() ? kNone : found->second;
+        return found == lines_.curves.end() ? nothing : found->second;
     }
     [[nodiscard]] bool is_3d() const {
         const auto any_z = [](const Curves& curves) {
