@@ -60,9 +60,12 @@ std::vector<WrittenLines> write(const ChangedLines& lines, const std::string& ta
 std::vector<std::string> geometries_in(const std::string& path) {
     const GDALDatasetUniquePtr dataset(GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR));
     REQUIRE(dataset);
+    OGRWktOptions options;
+    options.variant = wkbVariantIso;
     std::vector<std::string> texts;
     for (const auto& feature : *dataset->GetLayer(0)) {
-        texts.push_back(std::to_string(feature->GetFID()) + ": " + feature->GetGeometryRef()->exportToWkt());
+        texts.push_back(std::to_string(feature->GetFID()) + ": " +
+                        feature->GetGeometryRef()->exportToWkt(options));
     }
     return texts;
 }

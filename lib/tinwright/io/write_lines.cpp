@@ -202,8 +202,11 @@ void unite_types(ChangedFeatures& changed) {
     }
     for (const OGRFeatureUniquePtr& feature : changed.features) {
         if (is_multi && !is_mixed) {
+            OGRGeometry* const geometry = feature->StealGeometry();
+            const OGRwkbGeometryType type = OGR_GT_Flatten(changed.type);
+            // The type says whether z is kept, too.
             feature->SetGeometryDirectly(
-                OGRGeometryFactory::forceTo(feature->StealGeometry(), OGR_GT_Flatten(changed.type)));
+                OGRGeometryFactory::forceTo(geometry, geometry->Is3D() != 0 ? OGR_GT_SetZ(type) : type));
         }
     }
 }
