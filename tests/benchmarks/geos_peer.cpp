@@ -16,10 +16,10 @@ class Session {
     ~Session() { GEOS_finish_r(handle_); }
     Session(const Session&) = delete;
     Session& operator=(const Session&) = delete;
-    [[nodiscard]] GEOSContextHandle_t handle() const { return handle_; }
+    [[nodiscard]] GEOSContextHandle_HS* handle() const { return handle_; }
 
   private:
-    GEOSContextHandle_t handle_;
+    GEOSContextHandle_HS* handle_;
 };
 
 }  // namespace
@@ -30,7 +30,7 @@ std::string geos_name() { return "GEOS " GEOS_VERSION; }
 
 void measure_geos_noding(std::span<const tinwright::Breakline> lines, Meter& meter) {
     const Session session;
-    const GEOSContextHandle_t geos = session.handle();
+    GEOSContextHandle_HS* const geos = session.handle();
     const auto destroy = [geos](GEOSGeometry* geometry) { GEOSGeom_destroy_r(geos, geometry); };
     using Geometry = std::unique_ptr<GEOSGeometry, decltype(destroy)>;
 

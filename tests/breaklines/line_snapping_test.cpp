@@ -52,6 +52,59 @@ std::size_t count_misses(const NodedLines& noded) {
     return count_conflicts(noded.conflicts)[static_cast<std::size_t>(LineConflict::Kind::NearMiss)];
 }
 
+/// The ends of each line stay where they were, but for the distance and a step where they meet another line.
+bool are_ends_near(const NodingCase& input, const NodedLines& noded, double snap) {
+    const std::vector<KeyChain> chains = chains_of(noded);
+    const auto is_near = [&](const Point3& point, Key2 key) {
+        const Point2 at = input.lattice.position(key);
+        return std::hypot(at.x - point.x, at.y - point.y) <= snap + 2 * input.lattice.quantum();
+    };
+    for (std::size_t i = 0; i < chains.size(); ++i) {
+        if (!is_near(input.lines[i].points.front(), chains[i].front()) ||
+            !is_near(input.lines[i].points.back(), chains[i].back())) {
+            return false;
+        }
+    }
+    return true;
+}
+
+void check_snapping(Random& random, NodingCase input, double snap) {
+    const NodedLines once = node(input, 1, with_snap(snap));
+    CHECK(find_improper_edge(once) == "");
+    CHECK(are_ends_near(input, once, snap));
+    input.lines = shuffled_and_reversed(random, std::move(input.lines));
+    const NodedLines again = node(input, 0, with_snap(snap));
+    CHECK(has_same_geometry(once, again));
+    CHECK(conflict_places(once) == conflict_places(again));
+}
+
+/// Lines that begin and end within a decimetre of two of 25 points, ten metres apart.
+std::vector<Breakline> lines_between_spots(Random& random, int count) {
+    std::vector<Breakline> lines;
+    for (int i = 0; i < count; ++i) {
+        const std::int64_t from = random.integer(0, 24);
+        const std::int64_t to = (from + random.integer(1, 24)) % 25;
+        const auto end = [&](std::int64_t spot) {
+            const std::int64_t row = spot / 5;
+            return Point2{static_cast<double>(10 * (spot % 5)) + 0.01 * random.key(10),
+                          static_cast<double>(10 * row) + 0.01 * random.key(10)};
+        };
+        lines.push_back(line({end(from), end(to)}));
+    }
+    return lines;
+}
+
+/// Of different keys.
+double least_distance(const std::vector<Key2>& keys) {
+    double least = kKeyLimit;
+    for (const Key2 p : keys) {
+        for (const Key2 q : keys) {
+            least = p == q ? least : std::min(least, std::hypot(p.x - q.x, p.y - q.y));
+        }
+    }
+    return least;
+}
+
 }  // namespace
 
 TEST_SUITE("breaklines/line_snapping") {
@@ -102,56 +155,23 @@ TEST_SUITE("breaklines/line_snapping") {
     }
 
     TEST_CASE("snapped lines are sound, near misses are gone where they were moved, points moved little") {
-        for (const LineFamily& family : line_families()) {
-            CAPTURE(std::string(family.name));
-            for (int seed = 0; seed < cases(6); ++seed) {
-                CAPTURE(seed);
-                Random random(static_cast<std::uint64_t>(seed));
-                NodingCase input = make_case(family, random, 60);
-                const double snap = 0.01 * static_cast<double>(random.integer(1, 300));
-                const NodedLines once = node(input, 1, with_snap(snap));
-                CHECK(find_improper_edge(once) == "");
-                for (std::size_t i = 0; i < input.lines.size(); ++i) {
-                    // The ends of each line are where they were, but for the distance and a lattice step.
-                    const Point3& first = input.lines[i].points.front();
-                    const Key2 key = once.keys[once.chains[once.chain_start[i]]];
-                    const Point2 at = input.lattice.position(key);
-                    CHECK(std::hypot(at.x - first.x, at.y - first.y) <= snap + 2 * input.lattice.quantum());
-                }
-                input.lines = shuffled_and_reversed(random, std::move(input.lines));
-                const NodedLines again = node(input, 0, with_snap(snap));
-                CHECK(has_same_geometry(once, again));
-                CHECK(conflict_places(once) == conflict_places(again));
-            }
-        }
+        for_each_case(6, 60, [](Random& random, const NodingCase& input) {
+            check_snapping(random, input, 0.01 * static_cast<double>(random.integer(1, 300)));
+        });
     }
 
     TEST_CASE("ends scattered around common points meet in them") {
         for (int seed = 0; seed < cases(50); ++seed) {
             CAPTURE(seed);
             Random random(static_cast<std::uint64_t>(seed));
-            std::vector<Breakline> lines;
-            for (int i = 0; i < 30; ++i) {
-                const std::int64_t from = random.integer(0, 24);
-                const std::int64_t to = (from + random.integer(1, 24)) % 25;
-                const auto end = [&](std::int64_t place) {
-                    return Point2{static_cast<double>(10 * (place % 5)) + 0.01 * random.key(10),
-                                  static_cast<double>(10 * (place / 5)) + 0.01 * random.key(10)};
-                };
-                lines.push_back(line({end(from), end(to)}));
-            }
-            const NodingCase input = make_case(lines);
+            const NodingCase input = make_case(lines_between_spots(random, 30));
             const NodedLines noded = node(input, 0, with_snap(0.5));
             std::vector<Key2> ends;
             for (const KeyChain& chain : chains_of(noded)) {
                 ends.push_back(chain.front());
                 ends.push_back(chain.back());
             }
-            for (const Key2 p : ends) {
-                for (const Key2 q : ends) {
-                    CHECK((p == q || std::hypot(p.x - q.x, p.y - q.y) * input.lattice.quantum() > 5));
-                }
-            }
+            CHECK(least_distance(ends) * input.lattice.quantum() > 5);
             CHECK(count_misses(noded) > 0);
         }
     }

@@ -2,11 +2,15 @@
 #define TINWRIGHT_TESTS_BREAKLINES_NODING_CASES_HPP
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
+#include <doctest/doctest.h>
+
 #include "tinwright/breaklines/noding.hpp"
 
+#include "support/cases.hpp"
 #include "support/line_sets.hpp"
 
 /// Lines with their lattice, noded, and what the oracle says of them.
@@ -29,6 +33,20 @@ tinwright::NodedLines node(const NodingCase& input, int threads = 0,
                            tinwright::NodingOptions options = tolerant());
 
 using KeyChain = std::vector<tinwright::Key2>;
+
+/// Calls `body(random, input)` for cases of every family, in a loop that doctest tells of.
+template <class Body>
+void for_each_case(int usual, std::size_t size, const Body& body) {
+    for (const LineFamily& family : line_families()) {
+        CAPTURE(std::string(family.name));
+        for (int seed = 0; seed < cases(usual); ++seed) {
+            CAPTURE(seed);
+            Random random(static_cast<std::uint64_t>(seed));
+            const NodingCase input = make_case(family, random, size);
+            body(random, input);
+        }
+    }
+}
 
 /// By the oracle, from the lines' segments.
 struct ExpectedChains {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include <doctest/doctest.h>
 
@@ -54,30 +55,54 @@ SquarePass pass_by_oracle(Key2 a, Key2 b, Key2 c) {
     return oracle::is_within_half_step(c, {a, b}) ? SquarePass::Corner : SquarePass::Apart;
 }
 
+void check_crossing(Key2 a, Key2 b, Key2 c, Key2 d) {
+    const std::optional<oracle::Crossing> expected =
+        a == b || c == d ? std::nullopt : oracle::crossing(segment(a, b), segment(c, d));
+    REQUIRE(do_cross(a, b, c, d) == expected.has_value());
+    REQUIRE(do_cross(d, c, b, a) == expected.has_value());
+    if (!expected) {
+        return;
+    }
+    for (const RoundedCrossing& crossing : {round_crossing(a, b, c, d), round_crossing(b, a, c, d),
+                                            round_crossing(c, d, a, b), round_crossing(d, c, b, a)}) {
+        CHECK(crossing.key == expected->key);
+        CHECK(crossing.is_exact == expected->is_exact);
+    }
+}
+
+void check_pass(Key2 a, Key2 b, Key2 c) {
+    if (a == b) {
+        return;
+    }
+    const SquarePass expected = pass_by_oracle(a, b, c);
+    CHECK(pass_square(a, b, c) == expected);
+    CHECK(pass_square(b, a, c) == expected);
+    if (internal::is_apart_double(a, internal::direction(b, a), c)) {
+        CHECK(expected == SquarePass::Apart);
+    }
+}
+
+/// `check(random, bits)` for keys of all sizes.
+template <class Check>
+void for_each_size(int usual, const Check& check) {
+    for (const int bits : kBits) {
+        CAPTURE(bits);
+        for (int seed = 0; seed < cases(usual); ++seed) {
+            CAPTURE(seed);
+            Random random(static_cast<std::uint64_t>(seed));
+            check(random, bits);
+        }
+    }
+}
+
 }  // namespace
 
 TEST_SUITE("geometry/predicates: crossings") {
     TEST_CASE("segments cross exactly where rational arithmetic says, whatever their order and direction") {
-        for (const int bits : kBits) {
-            CAPTURE(bits);
-            for (int seed = 0; seed < cases(300); ++seed) {
-                CAPTURE(seed);
-                Random random(static_cast<std::uint64_t>(seed));
-                const auto [a, b, c, d] = random_pair(random, bits);
-                const std::optional<oracle::Crossing> expected =
-                    a == b || c == d ? std::nullopt : oracle::crossing(segment(a, b), segment(c, d));
-                REQUIRE(do_cross(a, b, c, d) == expected.has_value());
-                REQUIRE(do_cross(d, c, b, a) == expected.has_value());
-                if (expected) {
-                    for (const RoundedCrossing& crossing :
-                         {round_crossing(a, b, c, d), round_crossing(b, a, c, d), round_crossing(c, d, a, b),
-                          round_crossing(d, c, b, a)}) {
-                        CHECK(crossing.key == expected->key);
-                        CHECK(crossing.is_exact == expected->is_exact);
-                    }
-                }
-            }
-        }
+        for_each_size(300, [](Random& random, int bits) {
+            const auto [a, b, c, d] = random_pair(random, bits);
+            check_crossing(a, b, c, d);
+        });
     }
 
     TEST_CASE("a crossing halfway between lattice points goes to the greater one") {
@@ -95,52 +120,25 @@ TEST_SUITE("geometry/predicates: crossings") {
             CAPTURE(seed);
             Random random(static_cast<std::uint64_t>(seed));
             const auto small = [&] { return static_cast<double>(random.integer(0, 3)); };
-            const Key2 a{small(), small()};
-            const Key2 b{end - small(), end - small()};
-            const Key2 c{small(), small()};
-            const Key2 d{end - small(), end - small()};
-            const std::optional<oracle::Crossing> expected = oracle::crossing({a, b}, {c, d});
-            REQUIRE(do_cross(a, b, c, d) == expected.has_value());
-            if (expected) {
-                const RoundedCrossing crossing = round_crossing(a, b, c, d);
-                CHECK(crossing.key == expected->key);
-                CHECK(crossing.is_exact == expected->is_exact);
-            }
+            check_crossing({small(), small()}, {end - small(), end - small()}, {small(), small()},
+                           {end - small(), end - small()});
         }
     }
 
     TEST_CASE("a segment passes lattice squares as rational arithmetic says, in either direction") {
-        for (const int bits : kBits) {
-            CAPTURE(bits);
-            for (int seed = 0; seed < cases(300); ++seed) {
-                CAPTURE(seed);
-                Random random(static_cast<std::uint64_t>(seed));
-                const Key2 a = random_key(random, bits);
-                const Key2 b = random_key(random, bits);
-                const Key2 c = random.integer(0, 4) == 0 ? random_key(random, bits) : key_near(random, a, b);
-                if (a == b) {
-                    continue;
-                }
-                const SquarePass expected = pass_by_oracle(a, b, c);
-                CHECK(pass_square(a, b, c) == expected);
-                CHECK(pass_square(b, a, c) == expected);
-                if (internal::is_apart_double(a, internal::direction(b, a), c)) {
-                    CHECK(expected == SquarePass::Apart);
-                }
-            }
-        }
+        for_each_size(300, [](Random& random, int bits) {
+            const Key2 a = random_key(random, bits);
+            const Key2 b = random_key(random, bits);
+            const bool is_anywhere = random.integer(0, 4) == 0;
+            check_pass(a, b, is_anywhere ? random_key(random, bits) : key_near(random, a, b));
+        });
     }
 
-    TEST_CASE("each point of a segment is in the square of one lattice point") {
-        // On a small lattice, every square against every segment: corners are met as often as not.
-        constexpr int kWide = 4;
-        for (int code = 0; code < kWide * kWide * kWide * kWide; ++code) {
-            const Key2 a{static_cast<double>(code % kWide), static_cast<double>(code / kWide % kWide)};
-            const Key2 b{static_cast<double>(code / (kWide * kWide) % kWide),
-                         static_cast<double>(code / (kWide * kWide * kWide))};
-            for (int place = 0; a != b && place < kWide * kWide; ++place) {
-                const Key2 c{static_cast<double>(place % kWide), static_cast<double>(place / kWide)};
-                CHECK(pass_square(a, b, c) == pass_by_oracle(a, b, c));
+    TEST_CASE("every segment of a small lattice passes every square as it should, corners included") {
+        const std::vector<Key2> keys = grid_keys(4, 4);
+        for (const Key2 a : keys) {
+            for (const Key2 b : keys) {
+                std::for_each(keys.begin(), keys.end(), [&](Key2 c) { check_pass(a, b, c); });
             }
         }
     }

@@ -310,13 +310,11 @@ LineSet boundary_and_holes(Random& random, std::size_t size) {
 
 LineSet identical_vertices(Random& random, std::size_t size) {
     LineSet set;
-    std::vector<Step> places;
-    for (int i = 0; i < 5; ++i) {
-        places.push_back(anywhere(random, 2000));
-    }
+    std::array<Step, 5> places{};
+    std::generate(places.begin(), places.end(), [&] { return anywhere(random, 2000); });
     std::vector<Step> steps;
     for (std::size_t i = 0; i <= size; ++i) {
-        const Step next = places[static_cast<std::size_t>(random.integer(0, 4))];
+        const Step next = places.at(static_cast<std::size_t>(random.integer(0, 4)));
         steps.insert(steps.end(), static_cast<std::size_t>(random.integer(1, 3)), next);
         if (random.integer(0, 3) == 0) {
             set.lines.push_back(line_through(steps));

@@ -18,7 +18,7 @@ struct BigKey {
     cpp_int y;
 };
 
-cpp_int big(double value) { return cpp_int(static_cast<std::int64_t>(value)); }
+cpp_int big(double value) { return {static_cast<std::int64_t>(value)}; }
 BigKey big(Key2 key) { return {big(key.x), big(key.y)}; }
 
 int side(Key2 a, Key2 b, Key2 c) {
@@ -213,43 +213,56 @@ std::optional<Crossing> crossing(const KeySegment& p, const KeySegment& q) {
     return Crossing{{key_x.convert_to<double>(), key_y.convert_to<double>()}, x == key_x && y == key_y};
 }
 
-Noded node(std::span<const KeySegment> segments, std::span<const Key2> points) {
+namespace {
+
+/// Vertices, and segments with a crossing that is rounded.
+Noded find_vertices(std::span<const KeySegment> segments, std::span<const Key2> points) {
     Noded noded;
     noded.vertices.assign(points.begin(), points.end());
     noded.is_led.assign(segments.size(), false);
     for (std::size_t i = 0; i < segments.size(); ++i) {
         noded.vertices.insert(noded.vertices.end(), segments[i].begin(), segments[i].end());
         for (std::size_t j = i + 1; j < segments.size(); ++j) {
-            if (const std::optional<Crossing> met = crossing(segments[i], segments[j])) {
+            const std::optional<Crossing> met = crossing(segments[i], segments[j]);
+            if (met) {
                 noded.vertices.push_back(met->key);
-                if (!met->is_exact) {
-                    noded.is_led[i] = noded.is_led[j] = true;
-                }
+            }
+            if (met && !met->is_exact) {
+                noded.is_led[i] = noded.is_led[j] = true;
             }
         }
     }
     std::sort(noded.vertices.begin(), noded.vertices.end(), key_less);
     noded.vertices.erase(std::unique(noded.vertices.begin(), noded.vertices.end()), noded.vertices.end());
+    return noded;
+}
+
+/// Leads the segments whose chains cross that of another; whether there was one not yet led.
+bool lead_crossed(std::span<const KeySegment> segments, Noded& noded) {
+    bool has_led = false;
+    for (std::size_t i = 0; i < segments.size(); ++i) {
+        for (std::size_t j = i + 1; j < segments.size(); ++j) {
+            if ((noded.is_led[i] && noded.is_led[j]) || !do_chains_cross(noded.chains[i], noded.chains[j])) {
+                continue;
+            }
+            has_led = true;
+            for (const std::size_t s : {i, j}) {
+                noded.is_led[s] = true;
+                noded.chains[s] = chain_of(segments[s], true, noded.vertices);
+            }
+        }
+    }
+    return has_led;
+}
+
+}  // namespace
+
+Noded node(std::span<const KeySegment> segments, std::span<const Key2> points) {
+    Noded noded = find_vertices(segments, points);
     for (std::size_t i = 0; i < segments.size(); ++i) {
         noded.chains.push_back(chain_of(segments[i], noded.is_led[i], noded.vertices));
     }
-    const auto lead = [&](std::size_t i) {
-        const bool is_new = !noded.is_led[i];
-        noded.is_led[i] = true;
-        noded.chains[i] = chain_of(segments[i], true, noded.vertices);
-        return is_new;
-    };
-    for (bool is_done = false; !is_done;) {
-        is_done = true;
-        for (std::size_t i = 0; i < segments.size(); ++i) {
-            for (std::size_t j = i + 1; j < segments.size(); ++j) {
-                if ((!noded.is_led[i] || !noded.is_led[j]) &&
-                    do_chains_cross(noded.chains[i], noded.chains[j])) {
-                    is_done = !lead(i) && is_done;
-                    is_done = !lead(j) && is_done;
-                }
-            }
-        }
+    while (lead_crossed(segments, noded)) {
     }
     for (std::vector<Key2>& chain : noded.chains) {
         chain = split_at(chain, noded.vertices);

@@ -34,7 +34,7 @@ class Groups {
           tree_(group_boxes_) {}
 
     [[nodiscard]] std::size_t count() const { return group_boxes_.size(); }
-    [[nodiscard]] std::size_t begin(std::size_t group) const { return group * kGroup; }
+    [[nodiscard]] static std::size_t begin(std::size_t group) { return group * kGroup; }
     [[nodiscard]] std::size_t end(std::size_t group) const {
         return std::min(numbers_.size(), (group + 1) * kGroup);
     }
