@@ -117,10 +117,11 @@ class Picture {
         const double width = left_ + kScale * width_ + 2 * kMargin;
         const double height = kScale * height_ + 2 * kMargin + kCaption;
         std::ostringstream svg;
-        svg << "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " << number(width) << ' '
-            << number(height) << "\" width=\"" << number(width)
-            << "\" font-family=\"sans-serif\" font-size=\"13\">\n<title>" << title_
-            << "</title>\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n"
+        svg << R"(<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 )" << number(width) << ' '
+            << number(height) << R"(" width=")" << number(width)
+            << R"(" font-family="sans-serif" font-size="13">)"
+            << "\n<title>" << title_ << "</title>\n"
+            << R"(<rect width="100%" height="100%" fill="#fff"/>)" << '\n'
             << body_.str() << "</svg>\n";
         return svg.str();
     }
@@ -267,7 +268,7 @@ Breakline line(std::vector<Point3> points) {
     return made;
 }
 
-Breakline ring(LineRole role, std::uint32_t polygon, std::vector<Point2> corners) {
+Breakline ring(LineRole role, std::uint32_t polygon, const std::vector<Point2>& corners) {
     Breakline made;
     made.role = role;
     made.polygon = polygon;
@@ -351,8 +352,9 @@ std::string draw_meetings() {
     Scene scene;
     scene.samples = rough_rows(34, 24, 4.4, 12);
     const auto z = [](double x, double y) { return 0.1 * y + 0.02 * x; };
-    const auto on_slope = [&](std::vector<Point2> places) {
+    const auto on_slope = [&](const std::vector<Point2>& places) {
         std::vector<Point3> points;
+        points.reserve(places.size());
         for (const Point2 p : places) {
             points.push_back({p.x, p.y, z(p.x, p.y)});
         }

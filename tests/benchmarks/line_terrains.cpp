@@ -52,8 +52,9 @@ LineTerrain samples_and_lines(std::size_t samples) {
     const auto columns = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(lines))));
     const double cell = width / static_cast<double>(columns);
     for (std::size_t i = 0; i < lines; ++i) {
+        const std::size_t row = i / columns;
         const double left = static_cast<double>(i % columns) * cell;
-        const double low = static_cast<double>(i / columns) * cell;
+        const double low = static_cast<double>(row) * cell;
         Breakline line;
         double up = 0.5;
         for (int j = 0; j <= kSegments; ++j) {
@@ -100,7 +101,8 @@ LineTerrain sharp_fans(std::size_t fans) {
     LineTerrain terrain;
     for (std::size_t i = 0; i < fans; ++i) {
         const double x = 500 + 100 * static_cast<double>(i % kColumns);
-        const double y = 500 + 100 * static_cast<double>(i / kColumns);
+        const std::size_t row = i / kColumns;
+        const double y = 500 + 100 * static_cast<double>(row);
         double angle = between(random, 0, 2 * std::numbers::pi);
         for (int j = 0; j < 6; ++j) {
             const double length = between(random, 20, 45);
