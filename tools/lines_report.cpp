@@ -17,7 +17,7 @@ std::string counted(std::size_t count, const std::string& singular, const std::s
 }
 
 /// "3 breaklines, 1 hole" of those that there are.
-std::string roles_text(const LinesSummary::Counts& counts) {
+std::string roles_text(const LineCounts& counts) {
     std::string text;
     const auto add = [&text](std::size_t count, const char* one, const char* many) {
         if (count > 0) {
@@ -30,7 +30,7 @@ std::string roles_text(const LinesSummary::Counts& counts) {
     return text;
 }
 
-std::string edges_text(const LinesSummary::Counts& counts) {
+std::string edges_text(const LineCounts& counts) {
     std::string text = counted(counts.edges, "constrained edge", "constrained edges");
     if (counts.crossing_vertices > 0) {
         text += ", " + counted(counts.crossing_vertices, "vertex", "vertices") + " where they cross";
@@ -44,7 +44,9 @@ std::string edges_text(const LinesSummary::Counts& counts) {
 std::size_t count_line_edges(const Tin& tin) {
     std::size_t edges = 0;
     for (std::size_t i = 0; i < tin.traces.size(); ++i) {
-        edges += i == 0 || tin.traces[i].a != tin.traces[i - 1].a || tin.traces[i].b != tin.traces[i - 1].b;
+        const bool is_new =
+            i == 0 || tin.traces[i].a != tin.traces[i - 1].a || tin.traces[i].b != tin.traces[i - 1].b;
+        edges += is_new ? 1U : 0U;
     }
     return edges;
 }
@@ -61,7 +63,7 @@ LinesSummary summarize_lines(const LineOptions& options, const io::Lines& lines,
     summary.method = options.method_name();
     summary.is_conforming = report.is_conforming && !report.optimize;
     summary.steiner_vertices = report.conforming ? report.conforming->steiner_vertices : 0;
-    LinesSummary::Counts& counts = summary.counts.emplace();
+    LineCounts& counts = summary.counts.emplace();
     for (const Breakline& line : lines.lines) {
         counts.breaklines += line.role == LineRole::Breakline ? 1U : 0U;
         counts.boundaries += line.role == LineRole::Boundary ? 1U : 0U;
@@ -118,7 +120,7 @@ io::TinMetadata lines_metadata(const LinesSummary& summary) {
 }
 
 JsonValue lines_json(const LinesSummary& summary) {
-    const LinesSummary::Counts& counts = *summary.counts;
+    const LineCounts& counts = *summary.counts;
     JsonValue kinds = JsonValue::object();
     for (std::size_t i = 0; i < counts.conflicts.size(); ++i) {
         if (counts.conflicts[i] > 0) {
@@ -144,7 +146,7 @@ JsonValue lines_json(const LinesSummary& summary) {
 std::vector<std::pair<std::string, std::string>> lines_lines(const LinesSummary& summary) {
     std::vector<std::pair<std::string, std::string>> lines;
     if (summary.counts) {
-        const LinesSummary::Counts& counts = *summary.counts;
+        const LineCounts& counts = *summary.counts;
         lines.emplace_back(
             "lines", roles_text(counts) + " with " + counted(counts.points, "point", "points") + " from " +
                          counted(counts.sources, "source", "sources") +

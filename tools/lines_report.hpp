@@ -17,6 +17,22 @@
 
 namespace tinwright::tools {
 
+/// What was read and what became of it.
+struct LineCounts {
+    std::size_t breaklines = 0;
+    std::size_t boundaries = 0;
+    std::size_t holes = 0;
+    std::size_t points = 0;
+    std::size_t sources = 0;
+    std::size_t skipped = 0;  ///< unusable features
+    std::size_t edges = 0;    ///< distinct edges that lines run along
+    std::size_t crossing_vertices = 0;
+    std::size_t draped_vertices = 0;
+    std::size_t open_edges = 0;    ///< without an empty disk, when a conforming TIN was asked for
+    bool is_budget_spent = false;  ///< more Steiner points would help
+    ConflictCounts conflicts{};
+};
+
 /// What the lines of a TIN are and what became of them: of one made just now, or of a file by what it says.
 struct LinesSummary {
     std::string constraints;  ///< "constrained" or "conforming"; empty: no lines, or unknown
@@ -24,22 +40,7 @@ struct LinesSummary {
     std::optional<bool> is_conforming;
     std::optional<std::size_t> steiner_vertices;
 
-    /// Of a TIN made just now only.
-    struct Counts {
-        std::size_t breaklines = 0;
-        std::size_t boundaries = 0;
-        std::size_t holes = 0;
-        std::size_t points = 0;
-        std::size_t sources = 0;
-        std::size_t skipped = 0;  ///< unusable features
-        std::size_t edges = 0;    ///< distinct edges that lines run along
-        std::size_t crossing_vertices = 0;
-        std::size_t draped_vertices = 0;
-        std::size_t open_edges = 0;    ///< without an empty disk, when a conforming TIN was asked for
-        bool is_budget_spent = false;  ///< more Steiner points would help
-        ConflictCounts conflicts{};
-    };
-    std::optional<Counts> counts;
+    std::optional<LineCounts> counts;  ///< of a TIN made just now only
 };
 
 /// The summary of a TIN made with `lines`; empty without any.

@@ -21,9 +21,9 @@ void PointLayer::check_target(const std::string& target, const std::string& driv
 }
 
 PointLayer::PointLayer(const std::string& target, const std::string& driver, bool overwrite,
-                       const std::string& layer, std::span<const io::TinField> fields, const io::Crs& crs)
+                       const std::string& layer, std::span<const io::TinField> fields, io::Crs crs)
     : driver_(io::find_tin_driver(target, driver)),
-      crs_(crs),
+      crs_(std::move(crs)),
       options_(layer_options(driver_)),
       output_(std::make_unique<io::AtomicOutput>(target, overwrite)),
       dataset_(driver_, output_->path(), target, crs_, options_),

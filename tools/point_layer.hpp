@@ -21,7 +21,8 @@ class PointLayer {
 
     /// Creates the file under a temporary name. Throws UsageError, IoError.
     PointLayer(const std::string& target, const std::string& driver, bool overwrite, const std::string& layer,
-               std::span<const io::TinField> fields, const io::Crs& crs);
+               std::span<const io::TinField> fields, io::Crs crs);
+    ~PointLayer() = default;
     PointLayer(const PointLayer&) = delete;
     PointLayer& operator=(const PointLayer&) = delete;
 

@@ -63,6 +63,7 @@ Triangulated triangulate_located(const Inputs& inputs, const TriangulateOptions&
     const LinePoints line_points(inputs.lines.lines);
     const auto places_of = [&](const std::vector<std::size_t>& points) {
         std::vector<std::string> places;
+        places.reserve(points.size());
         for (const std::size_t point : points) {
             places.push_back(inputs.describe_point(point, line_points));
         }

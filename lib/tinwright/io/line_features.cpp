@@ -37,45 +37,48 @@ std::uint32_t FeatureLines::polygon_of_lines() {
     return *polygon_of_lines_;
 }
 
-template <class Curve>
-std::string FeatureLines::add_line(const Curve& curve, bool is_ring, std::uint32_t polygon) {
-    const int count = curve.getNumPoints();
+/// Appends the points of a curve; `is_missing_z` is set where one without a finite z is kept.
+std::string FeatureLines::append_points(const OGRSimpleCurve& curve, std::vector<Point3>& points,
+                                        bool& is_missing_z) const {
     const bool has_z = curve.Is3D() != 0;
     const bool is_draped = !z_ && (plan_.is_draped || (!has_z && plan_.may_lack_z));
-    if (count < 2 && !plan_.keeps_faults) {
-        return "has a line of one point";
+    for (int i = 0; i < curve.getNumPoints(); ++i) {
+        Point3 point = {curve.getX(i), curve.getY(i), kDraped};
+        if (!std::isfinite(point.x) || !std::isfinite(point.y)) {
+            return "has a coordinate that is not finite";
+        }
+        const double z = z_.value_or(has_z ? curve.getZ(i) : kDraped);
+        if (!is_draped && std::isfinite(z)) {
+            point.z = z;
+        } else if (!is_draped && plan_.keeps_faults) {
+            is_missing_z = true;
+        } else if (!is_draped) {
+            return has_z ? "has an elevation that is not finite at " + location_text({point.x, point.y}) +
+                               plan_.advice
+                         : "has no z" + plan_.advice;
+        }
+        points.push_back(point);
     }
-    if (!z_ && !is_draped && !has_z && !plan_.keeps_faults) {
-        return "has no z" + plan_.advice;
+    return {};
+}
+
+std::string FeatureLines::add_line(const OGRSimpleCurve& curve, bool is_ring, std::uint32_t polygon) {
+    if (curve.getNumPoints() < 2 && !plan_.keeps_faults) {
+        return "has a line of one point";
     }
     Breakline line;
     line.role = plan_.role;
     line.is_sharp = is_sharp_;
     line.polygon = polygon;
-    line.points.reserve(static_cast<std::size_t>(count) + 1);
+    line.points.reserve(static_cast<std::size_t>(curve.getNumPoints()) + 1);
     bool is_missing_z = false;
-    for (int i = 0; i < count; ++i) {
-        Point3 point = {curve.getX(i), curve.getY(i), kDraped};
-        if (!std::isfinite(point.x) || !std::isfinite(point.y)) {
-            return "has a coordinate that is not finite";
-        }
-        if (!is_draped) {
-            const double own_z = has_z ? curve.getZ(i) : kDraped;
-            point.z = z_.value_or(own_z);
-            if (!std::isfinite(point.z)) {
-                if (!plan_.keeps_faults) {
-                    return "has an elevation that is not finite at " + location_text({point.x, point.y}) +
-                           plan_.advice;
-                }
-                point.z = kDraped;
-                is_missing_z = true;
-            }
-        }
-        line.points.push_back(point);
+    std::string error = append_points(curve, line.points, is_missing_z);
+    if (!error.empty()) {
+        return error;
     }
     const Point3 first = line.points.front();
-    if (is_ring && !plan_.keeps_faults &&
-        (line.points.back().x != first.x || line.points.back().y != first.y)) {
+    const Point3 last = line.points.back();
+    if (is_ring && !plan_.keeps_faults && (last.x != first.x || last.y != first.y)) {
         line.points.push_back(first);
     }
     raw_.lines.push_back(std::move(line));

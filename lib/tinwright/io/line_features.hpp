@@ -13,6 +13,7 @@
 
 class OGRFeature;
 class OGRGeometry;
+class OGRSimpleCurve;
 
 /// Private to the reader of lines: features become lines.
 namespace tinwright::io {
@@ -45,8 +46,9 @@ class FeatureLines {
   private:
     std::string read_attributes(const OGRFeature& feature);
     std::string collect(const OGRGeometry& geometry);
-    template <class Curve>
-    std::string add_line(const Curve& curve, bool is_ring, std::uint32_t polygon);
+    std::string append_points(const OGRSimpleCurve& curve, std::vector<Point3>& points,
+                              bool& is_missing_z) const;
+    std::string add_line(const OGRSimpleCurve& curve, bool is_ring, std::uint32_t polygon);
     std::uint32_t polygon_of_lines();
 
     const LinePlan& plan_;

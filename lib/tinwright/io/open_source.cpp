@@ -4,6 +4,7 @@
 #include <array>
 #include <cctype>
 #include <string_view>
+#include <utility>
 
 #include <cpl_string.h>
 #include <cpl_vsi.h>
@@ -143,14 +144,17 @@ OpenedSource open_with_gdal(const Source& source, std::string path, unsigned kin
 
 /// The first key given that says how to find samples, or empty.
 std::string key_for_samples(const Source& source) {
-    return source.band                             ? "band="
-           : source.stride                         ? "stride="
-           : source.vertices                       ? "vertices="
-           : source.x_field                        ? "xfield="
-           : source.y_field                        ? "yfield="
-           : source.format != Source::Format::Auto ? "format="
-           : source.as != Source::Kind::Auto       ? "as="
-                                                   : "";
+    const std::array<std::pair<const char*, bool>, 7> keys = {
+        {{"band=", source.band.has_value()},
+         {"stride=", source.stride.has_value()},
+         {"vertices=", source.vertices},
+         {"xfield=", source.x_field.has_value()},
+         {"yfield=", source.y_field.has_value()},
+         {"format=", source.format != Source::Format::Auto},
+         {"as=", source.as != Source::Kind::Auto}}};
+    const auto* const given =
+        std::find_if(keys.begin(), keys.end(), [](const auto& key) { return key.second; });
+    return given == keys.end() ? "" : given->first;
 }
 
 }  // namespace

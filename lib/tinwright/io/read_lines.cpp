@@ -98,7 +98,7 @@ class LineReader {
         while (const std::unique_ptr<OGRFeature> feature{layer.GetNextFeature()}) {
             lines.add(*feature);
             if (++done % kFeaturesBetweenReports == 0) {
-                const double count = static_cast<double>(done);
+                const auto count = static_cast<double>(done);
                 report(s, total > count ? count / total : count / (count + 1e5));
             }
         }

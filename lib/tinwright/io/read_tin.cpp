@@ -55,7 +55,7 @@ struct LineFields {
 
   private:
     static bool is_set(const OGRFeature& edge, int field) {
-        return field >= 0 && edge.IsFieldSetAndNotNull(field) != 0;
+        return field >= 0 && edge.IsFieldSetAndNotNull(field);
     }
 };
 

@@ -67,10 +67,13 @@ std::string utm_zone(std::span<const Point3> points) {
 
 }  // namespace
 
-WorkingPlane::WorkingPlane(std::span<const Source> sources, const Crs& working, const Crs& assigned)
-    : sources_(sources), crs_(working), assigned_(assigned), is_asked_for_(working.is_known()) {
-    if (working.is_geographic()) {
-        throw UsageError("--crs " + working.name() +
+WorkingPlane::WorkingPlane(std::span<const Source> sources, Crs working, Crs assigned)
+    : sources_(sources),
+      crs_(std::move(working)),
+      assigned_(std::move(assigned)),
+      is_asked_for_(crs_.is_known()) {
+    if (crs_.is_geographic()) {
+        throw UsageError("--crs " + crs_.name() +
                          " is geographic: degrees cannot be measured as a plane; give a projected system");
     }
     for (const Source& source : sources) {

@@ -27,7 +27,7 @@ class WorkingPlane {
     /// `sources` are kept by reference. `working`: unknown, if the sources are to decide; `assigned`: for
     /// sources that carry none. Throws UsageError when `working` is geographic or a source's crs= is not
     /// understood.
-    WorkingPlane(std::span<const Source> sources, const Crs& working, const Crs& assigned);
+    WorkingPlane(std::span<const Source> sources, Crs working, Crs assigned);
 
     /// Brings the points of source `s` into the plane, in place. Returns the ascending positions of those
     /// that cannot be transformed, left as they were. Throws InputError for geographic coordinates without a
