@@ -216,8 +216,18 @@ bool has_same_geometry(const NodedLines& a, const NodedLines& b) {
 }
 
 std::vector<Breakline> lines_of_pieces(const NodedLines& noded, const Lattice& lattice) {
+    std::vector<Edge> edges = edges_of(noded);
+    std::vector<bool> has_edge(noded.keys.size());
+    for (const Edge& edge : edges) {
+        has_edge[edge[0]] = has_edge[edge[1]] = true;
+    }
+    for (std::uint32_t v = 0; v < noded.keys.size(); ++v) {
+        if (!has_edge[v]) {
+            edges.push_back({v, v});
+        }
+    }
     std::vector<Breakline> lines;
-    for (const Edge& edge : edges_of(noded)) {
+    for (const Edge& edge : edges) {
         Breakline line;
         for (const std::uint32_t v : edge) {
             const Point2 at = lattice.position(noded.keys[v]);

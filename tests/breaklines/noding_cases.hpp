@@ -67,7 +67,7 @@ std::string find_fault(const NodingCase& input, const tinwright::NodedLines& nod
 /// Same vertices, elevations bit for bit, and edges.
 bool has_same_geometry(const tinwright::NodedLines& a, const tinwright::NodedLines& b);
 
-/// A line of two points for each edge.
+/// A line of two points for each edge, and one without length for each vertex that has none.
 std::vector<tinwright::Breakline> lines_of_pieces(const tinwright::NodedLines& noded,
                                                   const tinwright::Lattice& lattice);
 

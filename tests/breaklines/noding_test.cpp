@@ -1,7 +1,9 @@
 #include "tinwright/breaklines/noding.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
+#include <utility>
 
 #include <doctest/doctest.h>
 
@@ -38,14 +40,16 @@ void check_idempotence(const NodingCase& input) {
     const NodedLines again = node({lines_of_pieces(once, input.lattice), input.lattice});
     CHECK(has_same_geometry(once, again));
     CHECK_FALSE(again.is_rounded);
-    CHECK(again.conflicts.empty());
+    CHECK(std::all_of(again.conflicts.begin(), again.conflicts.end(), [](const LineConflict& conflict) {
+        return conflict.kind == LineConflict::Kind::ZeroLength;
+    }));
 }
 
 }  // namespace
 
 TEST_SUITE("breaklines/noding") {
     TEST_CASE("noding gives what its definition gives, by comparing all with all") {
-        for (const std::size_t size : {2, 3, 5, 8, 13}) {
+        for (const std::size_t size : {2U, 3U, 5U, 8U, 13U}) {
             CAPTURE(size);
             for_each_case(30, size, [](Random& /*random*/, const NodingCase& input) {
                 check_against_definition(input);

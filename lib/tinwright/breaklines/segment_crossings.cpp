@@ -170,7 +170,7 @@ class CrossingSearch {
             });
         } else {
             group -= short_.count();
-            for (std::size_t i = long_.begin(group); i < long_.end(group); ++i) {
+            for (std::size_t i = Groups::begin(group); i < long_.end(group); ++i) {
                 find_with_long(i, found);
             }
         }
