@@ -299,6 +299,28 @@ TEST_SUITE("optimal/triangulate_lines") {
         CHECK(conflicts[0].line_a == 0);
     }
 
+    TEST_CASE("a thousand lines from one point and the lower bound of the thesis are no trouble") {
+        TriangulateOptions options = tolerant();
+        options.conforming.emplace();
+        SUBCASE("all around, gaps of a third of a degree") {
+            const std::vector<Breakline> lines = fan(1000, 0.36, 200);
+            const Triangulated made = triangulate({}, lines, tolerant());
+            CHECK(made.report.lines.conflicts.empty());
+            CHECK(constrained_delaunay_defect(made.tin) == "");
+            CHECK(made.tin.traces.size() == 1000);
+            const Triangulated conforming = triangulate({}, lines, options);
+            CHECK(constrained_delaunay_defect(conforming.tin) == "");
+            CHECK(conforming.report.is_conforming);
+        }
+        SUBCASE("[tan1993, Fig. 6.1]: close parallel edges need a point for each pair beside them") {
+            const LineSet set = close_parallel_edges(40, 40);
+            const Triangulated conforming = triangulate(set.samples, set.lines, options);
+            CHECK(conforming.report.is_conforming);
+            CHECK(conforming.report.conforming->steiner_vertices >= std::size_t{40} * 40);
+            CHECK(conforming.report.conforming->steiner_vertices < std::size_t{3} * 40 * 40);
+        }
+    }
+
     TEST_CASE("a budget of Steiner points ends the work with a valid triangulation that says so") {
         const LineSet set = close_parallel_edges(10, 10);
         TriangulateOptions options;
