@@ -15,10 +15,10 @@ using tinwright::Point3;
 double plane_z(double x, double y) { return 200 + (x - 500000) / 8 - (y - 4000000) / 32; }
 
 Point3 survey_point(std::int64_t x, std::int64_t y) {
-    // One division of whole numbers gives the double nearest to the decimal.
+    // One division of whole numbers gives the double nearest to the decimal, of the plane too.
     const double east = static_cast<double>(50000000 + x) / 100;
     const double north = static_cast<double>(400000000 + y) / 100;
-    return {east, north, plane_z(east, north)};
+    return {east, north, static_cast<double>(640000 + 4 * x - y) / 3200};
 }
 
 std::vector<Breakline> shuffled_and_reversed(Random& random, std::vector<Breakline> lines) {

@@ -60,10 +60,10 @@ double CrossingElevations::elevation(const LineVisit& visit, std::uint32_t verte
     return z_a + (z_b - z_a) * part;
 }
 
-/// How far elevations may be apart that mean the same: a few units in the last place and, where lines were
-/// bent, as far as the segments there rise in two lattice steps.
+/// How far elevations may be apart that mean the same: a part in 10^12 and, where lines were bent, as far as
+/// the segments there rise in two lattice steps.
 double CrossingElevations::slack(std::span<const LineVisit> visits) const {
-    constexpr double kUnits = 0x1p-48;
+    constexpr double kPart = 0x1p-40;
     double slack = 0;
     const auto add_segment_from = [&](const LineVisit& visit, std::uint32_t point) {
         const double z_from = z_of_point(visit.line, point);
@@ -76,7 +76,7 @@ double CrossingElevations::slack(std::span<const LineVisit> visits) const {
         const Key2 b = network_.b(segment);
         const double steps = rounded_.is_rounded ? 2 : 0;
         const double rise = std::abs(z_to - z_from) / std::hypot(b.x - a.x, b.y - a.y);
-        slack = std::max(slack, kUnits * (std::abs(z_from) + std::abs(z_to)) + steps * rise);
+        slack = std::max(slack, kPart * (std::abs(z_from) + std::abs(z_to)) + steps * rise);
     };
     for (const LineVisit& visit : visits) {
         if (visit.is_own && visit.point > points_.start[visit.line]) {

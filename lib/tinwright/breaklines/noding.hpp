@@ -28,9 +28,9 @@ struct NodingOptions {
 
 /// A straight part of a line between two vertices that it shares with whatever it meets there.
 struct NodedPiece {
-    std::uint32_t a;  ///< index of a vertex, a < b
-    std::uint32_t b;
-    std::uint32_t line;      ///< index of the line it is part of
+    std::uint32_t a = 0;  ///< index of a vertex, a < b
+    std::uint32_t b = 0;
+    std::uint32_t line = 0;  ///< index of the line it is part of
     std::uint32_t runs = 1;  ///< how often the line runs along it, in either direction
     friend auto operator<=>(const NodedPiece&, const NodedPiece&) = default;
 };
@@ -64,8 +64,9 @@ struct NodedLines {
 /// others stay exactly as they were.
 ///
 /// Elevations: of a line's point its z, else linear along the segment; draped lines take those of others.
-/// Differences that come of rounding do not count: a few units in the last place and, where lines were bent,
-/// two lattice steps up the steepest segment there. Lines that share points with one z have no conflict.
+/// Differences that come of rounding do not count, except between points: a part in 10^12 and, where lines
+/// were bent, two lattice steps up the steepest segment there. Lines that share points with one z have no
+/// conflict.
 ///
 /// Vertices, elevations and pieces do not depend on the order and the directions of the lines, policy First
 /// aside; line numbers do as far as they must. Conflicts are one a kind and place, of the lines with the

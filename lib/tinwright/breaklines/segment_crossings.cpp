@@ -137,7 +137,7 @@ class CrossingSearch {
         : network_(network),
           short_(std::move(short_and_long[0]), boxes),
           long_(std::move(short_and_long[1]), boxes),
-          is_rounded_(boxes.size()) {}
+          marks_(boxes.size()) {}
 
     SegmentCrossings find_all() {
         const std::size_t groups = short_.count() + long_.count();
@@ -152,11 +152,8 @@ class CrossingSearch {
         for (const std::vector<Key2>& part : found) {
             crossings.keys.insert(crossings.keys.end(), part.begin(), part.end());
         }
-        for (std::uint32_t s = 0; s < is_rounded_.size(); ++s) {
-            if (is_rounded_[s] != 0) {
-                crossings.rounded.push_back(s);
-            }
-        }
+        crossings.rounded = marked(kRounded);
+        crossings.meeting = marked(kMeets);
         return crossings;
     }
 
@@ -195,38 +192,80 @@ class CrossingSearch {
                             [&](std::size_t j) { try_pair(segment, long_.number(j), found); });
     }
 
+    /// `p` and `q`: different segments whose boxes meet.
     void try_pair(std::uint32_t p, std::uint32_t q, std::vector<Key2>& found) {
-        if (share_an_end(network_.segments[p], network_.segments[q])) {
+        const LineSegment& of_p = network_.segments[p];
+        const LineSegment& of_q = network_.segments[q];
+        if (of_p.a == of_q.a || of_p.a == of_q.b) {
+            try_pair_at(of_p.a, p, of_p.b, q);
+            return;
+        }
+        if (of_p.b == of_q.a || of_p.b == of_q.b) {
+            try_pair_at(of_p.b, p, of_p.a, q);
             return;
         }
         const Key2 a = network_.a(p);
         const Key2 b = network_.b(p);
         const Key2 c = network_.a(q);
         const Key2 d = network_.b(q);
-        if (!do_cross(a, b, c, d)) {
+        const int across_p = orient2d(a, b, c) * orient2d(a, b, d);
+        if (across_p > 0) {
             return;
+        }
+        const int across_q = orient2d(c, d, a) * orient2d(c, d, b);
+        if (across_q > 0) {
+            return;
+        }
+        mark(p, kMeets);
+        mark(q, kMeets);
+        if (across_p == 0 || across_q == 0) {
+            return;  // an end of one lies on the other
         }
         const RoundedCrossing at = round_crossing(a, b, c, d);
         found.push_back(at.key);
         if (!at.is_exact) {
-            mark_rounded(p);
-            mark_rounded(q);
+            mark(p, kMeets | kRounded);
+            mark(q, kMeets | kRounded);
         }
     }
 
-    static bool share_an_end(const LineSegment& p, const LineSegment& q) {
-        return p.a == q.a || p.a == q.b || p.b == q.a || p.b == q.b;
+    /// Of two segments from the same site; `far_p` is the other end of p.
+    void try_pair_at(std::uint32_t site, std::uint32_t p, std::uint32_t far_p, std::uint32_t q) {
+        const LineSegment& of_q = network_.segments[q];
+        const Key2 apex = network_.sites[site];
+        const Key2 to_p = network_.sites[far_p];
+        const Key2 to_q = network_.sites[of_q.a == site ? of_q.b : of_q.a];
+        if (orient2d(to_p, apex, to_q) == 0 && angle_sign(to_p, apex, to_q) > 0) {
+            mark(p, kMeets);
+            mark(q, kMeets);
+        }
     }
 
-    /// From any task: all of them write the same.
-    void mark_rounded(std::uint32_t segment) {
-        std::atomic_ref(is_rounded_[segment]).store(1, std::memory_order_relaxed);
+    static constexpr unsigned char kMeets = 1;
+    static constexpr unsigned char kRounded = 2;
+
+    /// From any task: bits are only ever added.
+    void mark(std::uint32_t segment, unsigned char bits) {
+        const std::atomic_ref<unsigned char> marks(marks_[segment]);
+        if ((marks.load(std::memory_order_relaxed) & bits) != bits) {
+            marks.fetch_or(bits, std::memory_order_relaxed);
+        }
+    }
+
+    [[nodiscard]] std::vector<std::uint32_t> marked(unsigned char bits) const {
+        std::vector<std::uint32_t> segments;
+        for (std::uint32_t s = 0; s < marks_.size(); ++s) {
+            if ((marks_[s] & bits) != 0) {
+                segments.push_back(s);
+            }
+        }
+        return segments;
     }
 
     const LineNetwork& network_;
     Groups short_;
     Groups long_;
-    std::vector<char> is_rounded_;
+    std::vector<unsigned char> marks_;  // one a segment
 };
 
 std::array<std::vector<std::uint32_t>, 2> split_by_size(std::span<const KeyBox> boxes) {

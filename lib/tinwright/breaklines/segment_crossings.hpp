@@ -15,6 +15,9 @@ struct SegmentCrossings {
     std::vector<Key2> keys;
     /// Segments with a crossing that is not on the lattice, ascending.
     std::vector<std::uint32_t> rounded;
+    /// Segments that share more with another than an end of both, those above included, ascending. The rest
+    /// meet in ends only, unless a site without segments lies on them.
+    std::vector<std::uint32_t> meeting;
 };
 
 /// Exact. O((n + p) log n) for p pairs of segments whose boxes meet; parallel inside the caller's task arena.

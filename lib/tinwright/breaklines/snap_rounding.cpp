@@ -41,16 +41,86 @@ std::vector<Key2> merge_vertices(std::span<const Key2> sites, std::span<const Ke
 
 class Rounding {
   public:
-    Rounding(const LineNetwork& network, std::span<const Key2> crossings) {
-        out_.vertices = merge_vertices(network.sites, crossings, out_.of_site);
+    Rounding(const LineNetwork& network, const SegmentCrossings& crossings,
+             std::span<const std::uint32_t> led)
+        : network_(network), rounded_(crossings.rounded), led_(led) {
+        out_.vertices = merge_vertices(network.sites, crossings.keys, out_.of_site);
         segments_.reserve(network.segments.size());
-        for (const LineSegment& segment : network.segments) {
-            segments_.push_back({out_.of_site[segment.a], out_.of_site[segment.b]});
+        for (std::uint32_t s = 0; s < network.segments.size(); ++s) {
+            segments_.push_back({network.a(s), network.b(s)});
         }
-        by_vertex_ = find_passes(out_.vertices, segments_);
+        is_compared_.assign(segments_.size(), 0);
+        for (const std::span<const std::uint32_t> segments : {led, std::span(crossings.meeting)}) {
+            for (const std::uint32_t segment : segments) {
+                is_compared_[segment] = 1;
+            }
+        }
+    }
+
+    RoundedSegments round() && {
+        lead_all();
+        if (concerns_others()) {
+            is_compared_.assign(segments_.size(), 1);
+            lead_all();
+        }
+        make_chains();
+        return std::move(out_);
+    }
+
+  private:
+    /// Leads the segments that have to be, of those that are compared with the vertices.
+    void lead_all() {
+        by_vertex_ = passes_of_segments(out_.vertices, 1);
         vertex_start_ = starts(out_.vertices.size(), [](const VertexPass& pass) { return pass.vertex; });
         sort_by_segment();
-        is_led_.resize(segments_.size());
+        is_led_.assign(segments_.size(), 0);
+        for (const std::span<const std::uint32_t> segments : {led_, rounded_}) {
+            std::for_each(segments.begin(), segments.end(), [&](std::uint32_t s) { lead(s); });
+        }
+        while (!to_follow_.empty()) {
+            const std::uint32_t segment = to_follow_.back();
+            to_follow_.pop_back();
+            lead_crossed_by(segment);
+        }
+    }
+
+    /// Passes of the segments that are compared with the vertices, or of those that are not.
+    [[nodiscard]] std::vector<VertexPass> passes_of_segments(std::span<const Key2> vertices,
+                                                             char are_compared) const {
+        std::vector<std::uint32_t> numbers;
+        std::vector<SegmentKeys> chosen;
+        for (std::uint32_t s = 0; s < segments_.size(); ++s) {
+            if (is_compared_[s] == are_compared) {
+                numbers.push_back(s);
+                chosen.push_back(segments_[s]);
+            }
+        }
+        std::vector<VertexPass> passes = find_passes(vertices, chosen);
+        for (VertexPass& pass : passes) {
+            pass.segment = numbers[pass.segment];
+        }
+        return passes;
+    }
+
+    /// Whether a segment not yet compared has to be: no other's end lies on it, so only the vertices matter
+    /// that led segments pass off the centre, and sites without segments.
+    [[nodiscard]] bool concerns_others() const {
+        std::vector<char> matters(out_.vertices.size(), 1);
+        for (const LineSegment& segment : network_.segments) {
+            matters[out_.of_site[segment.a]] = matters[out_.of_site[segment.b]] = 0;
+        }
+        for (const VertexPass& pass : by_vertex_) {
+            if (pass.kind == SquarePass::Through && is_led_[pass.segment] != 0) {
+                matters[pass.vertex] = 1;
+            }
+        }
+        std::vector<Key2> vertices;
+        for (std::size_t v = 0; v < matters.size(); ++v) {
+            if (matters[v] != 0) {
+                vertices.push_back(out_.vertices[v]);
+            }
+        }
+        return !passes_of_segments(vertices, 0).empty();
     }
 
     void lead(std::uint32_t segment) {
@@ -60,17 +130,6 @@ class Rounding {
         }
     }
 
-    RoundedSegments finish() && {
-        while (!to_follow_.empty()) {
-            const std::uint32_t segment = to_follow_.back();
-            to_follow_.pop_back();
-            lead_crossed_by(segment);
-        }
-        make_chains();
-        return std::move(out_);
-    }
-
-  private:
     template <class NumberOf>
     std::vector<std::uint32_t> starts(std::size_t count, const NumberOf& number_of) const {
         std::vector<std::uint32_t> start(count + 1);
@@ -92,7 +151,7 @@ class Rounding {
             by_segment_[next[pass.segment]++] = pass;
         }
         for_each_segment([&](std::uint32_t s) {
-            const bool falls = end_b(s).y < end_a(s).y;
+            const bool falls = segments_[s].b.y < segments_[s].a.y;
             std::sort(by_segment_.begin() + segment_start_[s], by_segment_.begin() + segment_start_[s + 1],
                       [&](const VertexPass& left, const VertexPass& right) {
                           const Key2 p = out_.vertices[left.vertex];
@@ -114,8 +173,12 @@ class Rounding {
             });
     }
 
-    [[nodiscard]] Key2 end_a(std::uint32_t s) const { return out_.vertices[segments_[s].a]; }
-    [[nodiscard]] Key2 end_b(std::uint32_t s) const { return out_.vertices[segments_[s].b]; }
+    [[nodiscard]] std::uint32_t vertex_a(std::uint32_t s) const {
+        return out_.of_site[network_.segments[s].a];
+    }
+    [[nodiscard]] std::uint32_t vertex_b(std::uint32_t s) const {
+        return out_.of_site[network_.segments[s].b];
+    }
     [[nodiscard]] std::span<const VertexPass> passes_of(std::uint32_t s) const {
         return std::span(by_segment_).subspan(segment_start_[s], segment_start_[s + 1] - segment_start_[s]);
     }
@@ -130,7 +193,7 @@ class Rounding {
     /// The straight segments that edges of a led segment's chain cross are led too.
     void lead_crossed_by(std::uint32_t s) {
         const std::span<const VertexPass> passes = passes_of(s);
-        std::uint32_t before = segments_[s].a;
+        std::uint32_t before = vertex_a(s);
         for (std::size_t i = 0; i < passes.size(); ++i) {
             if (passes[i].kind == SquarePass::Corner) {
                 continue;
@@ -139,7 +202,7 @@ class Rounding {
             while (next < passes.size() && passes[next].kind == SquarePass::Corner) {
                 ++next;
             }
-            const std::uint32_t after = next < passes.size() ? passes[next].vertex : segments_[s].b;
+            const std::uint32_t after = next < passes.size() ? passes[next].vertex : vertex_b(s);
             if (passes[i].kind == SquarePass::Through) {
                 lead_crossed_at(before, passes[i].vertex, after);
             }
@@ -152,8 +215,8 @@ class Rounding {
         for (const VertexPass& pass : passes_at(vertex)) {
             const std::uint32_t s = pass.segment;
             if (pass.kind == SquarePass::Through && is_led_[s] == 0 &&
-                (do_cross(end_a(s), end_b(s), out_.vertices[before], here) ||
-                 do_cross(end_a(s), end_b(s), here, out_.vertices[after]))) {
+                (do_cross(segments_[s].a, segments_[s].b, out_.vertices[before], here) ||
+                 do_cross(segments_[s].a, segments_[s].b, here, out_.vertices[after]))) {
                 lead(s);
             }
         }
@@ -182,14 +245,14 @@ class Rounding {
     template <class Visit>
     void visit_chain(std::uint32_t s, const Visit& visit) const {
         const std::span<const VertexPass> passes = passes_of(s);
-        visit(segments_[s].a);
-        std::uint32_t before = segments_[s].a;
+        visit(vertex_a(s));
+        std::uint32_t before = vertex_a(s);
         for (std::size_t i = 0; i < passes.size();) {
             std::size_t next = i;  // the next that the chain certainly goes through
             while (next < passes.size() && !leads_through(s, passes[next].kind)) {
                 ++next;
             }
-            const std::uint32_t after = next < passes.size() ? passes[next].vertex : segments_[s].b;
+            const std::uint32_t after = next < passes.size() ? passes[next].vertex : vertex_b(s);
             for (; i < next; ++i) {
                 if (is_led_[s] != 0 && is_between(before, passes[i].vertex, after)) {
                     visit(passes[i].vertex);
@@ -201,7 +264,7 @@ class Rounding {
                 ++i;
             }
         }
-        visit(segments_[s].b);
+        visit(vertex_b(s));
     }
 
     /// Whether an edge goes exactly through a vertex whose square its segment touches with a corner.
@@ -210,8 +273,12 @@ class Rounding {
                SquarePass::Center;
     }
 
+    const LineNetwork& network_;
+    std::span<const std::uint32_t> rounded_;
+    std::span<const std::uint32_t> led_;
     RoundedSegments out_;
-    std::vector<VertexSegment> segments_;
+    std::vector<SegmentKeys> segments_;
+    std::vector<char> is_compared_;  // one a segment
     std::vector<VertexPass> by_vertex_;
     std::vector<std::uint32_t> vertex_start_;
     std::vector<VertexPass> by_segment_;  // in the order along each segment
@@ -224,13 +291,7 @@ class Rounding {
 
 RoundedSegments round_segments(const LineNetwork& network, const SegmentCrossings& crossings,
                                std::span<const std::uint32_t> led) {
-    Rounding rounding(network, crossings.keys);
-    for (const std::span<const std::uint32_t> segments : {led, std::span(crossings.rounded)}) {
-        for (const std::uint32_t segment : segments) {
-            rounding.lead(segment);
-        }
-    }
-    return std::move(rounding).finish();
+    return Rounding(network, crossings, led).round();
 }
 
 }  // namespace tinwright

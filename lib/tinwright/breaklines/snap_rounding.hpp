@@ -36,7 +36,8 @@ struct RoundedSegments {
 /// edge from A's centre to B's, newly cross a straight segment e. What lies between part and edge contains no
 /// hot lattice point, since the part would pass its square; so e does not end there but leaves it, and not
 /// across the part itself, as crossings that were not rounded are vertices: e passes A or B off the centre,
-/// and so does the part. Hence only squares that led segments pass off their centre have to be looked at.
+/// and so does the part. Hence only squares that led segments pass off their centre have to be looked at, and
+/// segments that meet no other are compared with those alone.
 ///
 /// O((n + k) log n) for n segments and k hot points in practice; parallel inside the caller's task arena.
 RoundedSegments round_segments(const LineNetwork& network, const SegmentCrossings& crossings,

@@ -1,6 +1,7 @@
 #include "tinwright/breaklines/square_passes.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <numeric>
 #include <utility>
@@ -21,13 +22,8 @@ double half_perimeter(const KeyBox& box) { return (box.high.x - box.low.x) + (bo
 
 class PassSearch {
   public:
-    PassSearch(std::span<const Key2> vertices, std::span<const VertexSegment> segments)
-        : vertices_(vertices), segments_(segments), found_((vertices.size() + kBlock - 1) / kBlock) {
-        ends_.reserve(segments.size());
-        for (const VertexSegment& segment : segments) {
-            ends_.push_back({vertices[segment.a], vertices[segment.b]});
-        }
-    }
+    PassSearch(std::span<const Key2> vertices, std::span<const SegmentKeys> segments)
+        : vertices_(vertices), segments_(segments), found_((vertices.size() + kBlock - 1) / kBlock) {}
 
     std::vector<VertexPass> find_all() {
         std::vector<std::uint32_t> all(segments_.size());
@@ -43,14 +39,6 @@ class PassSearch {
     }
 
   private:
-    struct Ends {
-        Key2 a;
-        Key2 b;
-        [[nodiscard]] KeyBox box() const {
-            return {{std::min(a.x, b.x), std::min(a.y, b.y)}, {std::max(a.x, b.x), std::max(a.y, b.y)}};
-        }
-    };
-
     /// The box of some vertices, and one with their squares in it.
     struct Target {
         KeyBox keys;
@@ -63,8 +51,8 @@ class PassSearch {
               size(half_perimeter(squares)) {}
 
         // A square that a segment passes has its centre in the segment's box.
-        [[nodiscard]] bool may_be_passed(const Ends& ends) const {
-            const KeyBox box = ends.box();
+        [[nodiscard]] bool may_be_passed(const SegmentKeys& ends) const {
+            const KeyBox box = KeyBox::of(std::array{ends.a, ends.b});
             return keys.meets(box) &&
                    (half_perimeter(box) < size || side_of_line(ends.a, ends.b, squares) == 0);
         }
@@ -72,6 +60,9 @@ class PassSearch {
 
     /// From the blocks of one half of the vertices to their own halves, in tasks.
     void hand_down(std::size_t first, std::size_t last, std::vector<std::uint32_t>& candidates) {
+        if (candidates.empty()) {
+            return;
+        }
         if (last - first <= kBlock) {
             search(first, last, candidates, 0);
             return;
@@ -92,7 +83,7 @@ class PassSearch {
                         std::size_t to, std::vector<std::uint32_t>& passing) const {
         for (std::size_t i = from; i < to; ++i) {
             const std::uint32_t segment = candidates[i];
-            if (target.may_be_passed(ends_[segment])) {
+            if (target.may_be_passed(segments_[segment])) {
                 passing.push_back(segment);
             }
         }
@@ -117,9 +108,11 @@ class PassSearch {
         std::vector<VertexPass>& found = found_[first / kBlock];
         for (std::size_t v = first; v < last; ++v) {
             const auto vertex = static_cast<std::uint32_t>(v);
+            const Key2 key = vertices_[v];
             for (const std::uint32_t s : candidates) {
-                const SquarePass kind = pass_square(ends_[s].a, ends_[s].b, vertices_[v]);
-                if (kind != SquarePass::Apart && segments_[s].a != vertex && segments_[s].b != vertex) {
+                const SegmentKeys& ends = segments_[s];
+                const SquarePass kind = pass_square(ends.a, ends.b, key);
+                if (kind != SquarePass::Apart && ends.a != key && ends.b != key) {
                     found.push_back({vertex, s, kind});
                 }
             }
@@ -127,14 +120,13 @@ class PassSearch {
     }
 
     std::span<const Key2> vertices_;
-    std::span<const VertexSegment> segments_;
-    std::vector<Ends> ends_;
+    std::span<const SegmentKeys> segments_;
     std::vector<std::vector<VertexPass>> found_;  // by block of vertices
 };
 
 }  // namespace
 
-std::vector<VertexPass> find_passes(std::span<const Key2> vertices, std::span<const VertexSegment> segments) {
+std::vector<VertexPass> find_passes(std::span<const Key2> vertices, std::span<const SegmentKeys> segments) {
     return PassSearch(vertices, segments).find_all();
 }
 

@@ -11,10 +11,10 @@
 
 namespace tinwright {
 
-/// A segment between two vertices.
-struct VertexSegment {
-    std::uint32_t a;
-    std::uint32_t b;
+/// The ends of a segment.
+struct SegmentKeys {
+    Key2 a;
+    Key2 b;
 };
 
 /// That a segment passes the square of a vertex which is none of its ends, or touches its corner.
@@ -28,7 +28,7 @@ struct VertexPass {
 /// Vertices are halved along the curve, segments handed down to the halves whose box they pass, until few of
 /// either are left: O((n + k) log k + p) in practice for n segments, k vertices and p passes; parallel inside
 /// the caller's task arena.
-std::vector<VertexPass> find_passes(std::span<const Key2> vertices, std::span<const VertexSegment> segments);
+std::vector<VertexPass> find_passes(std::span<const Key2> vertices, std::span<const SegmentKeys> segments);
 
 }  // namespace tinwright
 
