@@ -14,9 +14,9 @@ namespace tinwright {
 
 /// That an edge is part of a line: the line's number is an index into whatever lines the TIN was made with.
 struct LineTrace {
-    VertexId a;  ///< a < b
-    VertexId b;
-    std::uint32_t line;
+    VertexId a{};  ///< a < b
+    VertexId b{};
+    std::uint32_t line = 0;
     std::uint32_t runs = 1;  ///< how often the line runs along the edge: a ring with a spike runs there twice
     friend auto operator<=>(const LineTrace&, const LineTrace&) = default;
 };
