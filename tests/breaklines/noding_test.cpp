@@ -71,4 +71,14 @@ TEST_SUITE("breaklines/noding") {
     TEST_CASE("noding what is noded changes nothing") {
         for_each_case(6, 120, [](Random& /*random*/, const NodingCase& input) { check_idempotence(input); });
     }
+
+    TEST_CASE("nor does it with a thousand segments of every kind: fans, hubs, parallels a unit apart") {
+        for (const LineFamily& family : line_families()) {
+            CAPTURE(std::string(family.name));
+            // Lines that all cross each other at tiny angles take time.
+            const std::size_t size = std::string(family.name) == "hair crossings" ? 300 : 1000;
+            Random random(1);
+            check_idempotence(make_case(family, random, size));
+        }
+    }
 }

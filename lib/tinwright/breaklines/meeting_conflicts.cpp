@@ -149,9 +149,8 @@ struct SummedLine {
     friend auto operator<=>(const SummedLine&, const SummedLine&) = default;
 };
 
-}  // namespace
-
-std::vector<std::uint32_t> find_repeated_lines(const LinePoints& points, const LineNetwork& network) {
+/// Lines that have a length, ascending by the sum of their segments: lines that repeat another have the same.
+std::vector<SummedLine> summed_lines(const LinePoints& points, const LineNetwork& network) {
     std::vector<SummedLine> sums;
     for (std::uint32_t line = 0; line < points.line_count(); ++line) {
         SummedLine summed{0, line};
@@ -167,28 +166,39 @@ std::vector<std::uint32_t> find_repeated_lines(const LinePoints& points, const L
         }
     }
     std::sort(sums.begin(), sums.end());
+    return sums;
+}
+
+/// Of lines with the same sum; nearly always they are the same.
+void find_repeated(std::span<const SummedLine> lines, const LinePoints& points, const LineNetwork& network,
+                   std::vector<std::uint32_t>& first) {
+    std::vector<std::pair<std::vector<std::uint32_t>, std::uint32_t>> ways;
+    for (const SummedLine& summed : lines) {
+        const std::uint32_t begin = points.start[summed.line];
+        const std::uint32_t count = points.start[summed.line + 1] - begin;
+        ways.emplace_back(canonical_sites(std::span(network.site).subspan(begin, count)), summed.line);
+    }
+    std::sort(ways.begin(), ways.end());
+    for (std::size_t i = 1; i < ways.size(); ++i) {
+        if (ways[i].first == ways[i - 1].first) {
+            first[ways[i].second] = first[ways[i - 1].second];
+        }
+    }
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> find_repeated_lines(const LinePoints& points, const LineNetwork& network) {
     std::vector<std::uint32_t> first(points.line_count());
     std::iota(first.begin(), first.end(), 0U);
+    const std::vector<SummedLine> sums = summed_lines(points, network);
     for (std::size_t begin = 0; begin < sums.size();) {
         std::size_t end = begin + 1;
         while (end < sums.size() && sums[end].sum == sums[begin].sum) {
             ++end;
         }
         if (end - begin > 1) {
-            std::vector<std::pair<std::vector<std::uint32_t>, std::uint32_t>> ways;
-            for (std::size_t i = begin; i < end; ++i) {
-                const std::uint32_t line = sums[i].line;
-                ways.emplace_back(canonical_sites(std::span(network.site)
-                                                      .subspan(points.start[line],
-                                                               points.start[line + 1] - points.start[line])),
-                                  line);
-            }
-            std::sort(ways.begin(), ways.end());
-            for (std::size_t i = 1; i < ways.size(); ++i) {
-                if (ways[i].first == ways[i - 1].first) {
-                    first[ways[i].second] = first[ways[i - 1].second];
-                }
-            }
+            find_repeated(std::span(sums).subspan(begin, end - begin), points, network, first);
         }
         begin = end;
     }

@@ -46,7 +46,7 @@ struct NodedLines {
     std::vector<std::uint32_t> origin;
     std::vector<NodedPiece> pieces;       ///< by a, b, line; each triple once
     std::vector<LineConflict> conflicts;  ///< by location in curve order, then kind
-    bool is_rounded = false;  ///< whether a crossing was moved to the lattice (by less than a step)
+    bool is_rounded = false;  ///< whether a piece leaves its line, to have its ends on the lattice
     /// Only if asked for: vertices along line i in its direction, consecutive ones different, are
     /// chains[chain_start[i]] up to chains[chain_start[i + 1]], the latter excluded. A line without length
     /// has one vertex, a line without points none.
