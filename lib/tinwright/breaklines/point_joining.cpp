@@ -20,12 +20,17 @@ struct CurveOrder {
 /// Groups of keys that become one, each named by its first key along the curve.
 class KeyGroups {
   public:
+    // Not recursive: a chain of near misses may be as long as the lines.
     Key2 find(Key2 key) {
-        const auto at = parent_.find(key);
-        if (at == parent_.end() || at->second == key) {
-            return key;
+        for (auto at = parent_.find(key); at != parent_.end();) {
+            const auto above = parent_.find(at->second);
+            key = at->second;
+            if (above != parent_.end()) {
+                key = at->second = above->second;
+            }
+            at = parent_.find(key);
         }
-        return at->second = find(at->second);
+        return key;
     }
     void join(Key2 a, Key2 b) {
         const Key2 first = find(a);
