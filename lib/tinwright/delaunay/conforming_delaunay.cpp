@@ -39,7 +39,8 @@ class Splitter {
           max_steiner_(max_steiner),
           progress_(progress),
           generation_(tin_.vertex_count() - inserter.old_vertex_count(), 0),
-          fans_(inserter.old_vertex_count() + 1, 0) {
+          fans_(inserter.old_vertex_count() + 1, 0),
+          closures_(inserter.old_vertex_count(), Closure::Unknown) {
         make_fans();
     }
 
@@ -121,7 +122,9 @@ class Splitter {
         }
     }
 
-    // Numbers of the edges of lines at each vertex.
+    enum class Closure : unsigned char { Unknown, Open, Closed };
+
+    // The edges of lines at each vertex. Other ends come out ascending, as the edges do.
     void make_fans() {
         const auto& edges = inserter_.line_edges();
         for (const auto& [a, b] : edges) {
@@ -141,15 +144,23 @@ class Splitter {
 
     // Whether the edges of lines at a vertex leave no gap of much more than a right angle. Projecting from
     // one to the next then leads around the vertex, ever closer to it.
-    [[nodiscard]] bool is_closed_fan(VertexId v) const {
-        constexpr double kCosine = -0.05;
-        if (fans_[v.value + 1] - fans_[v.value] < 4) {
-            return false;
+    [[nodiscard]] bool is_closed_fan(VertexId v) {
+        Closure& closure = closures_[v.value];
+        if (closure == Closure::Unknown) {
+            closure = has_no_wide_gap(v) ? Closure::Closed : Closure::Open;
         }
+        return closure == Closure::Closed;
+    }
+
+    [[nodiscard]] bool has_no_wide_gap(VertexId v) const {
+        constexpr double kCosine = -0.05;
         std::vector<double> angles;
         for (std::uint32_t i = fans_[v.value]; i < fans_[v.value + 1]; ++i) {
             const Key2 end = key(fan_edges_[i]);
             angles.push_back(std::atan2(end.y - key(v).y, end.x - key(v).x));
+        }
+        if (angles.size() < 4) {
+            return false;
         }
         std::sort(angles.begin(), angles.end());
         angles.push_back(angles.front() + 2 * 3.14159265358979323846);
@@ -166,10 +177,9 @@ class Splitter {
         const auto [begin, end] = inserter_.line_edges()[line_edge];
         if (is_old(c)) {
             for (const VertexId v : {begin, end}) {
-                for (std::uint32_t i = fans_[v.value]; i < fans_[v.value + 1]; ++i) {
-                    if (fan_edges_[i] == c) {
-                        return v;
-                    }
+                const auto first = fan_edges_.begin();
+                if (std::binary_search(first + fans_[v.value], first + fans_[v.value + 1], c)) {
+                    return v;
                 }
             }
             return std::nullopt;
@@ -248,7 +258,8 @@ class Splitter {
     std::vector<Open> given_up_;
     std::vector<int> generation_;      // of Steiner points: how many were made one because of the other
     std::vector<std::uint32_t> fans_;  // where a vertex's entries in fan_edges_ begin
-    std::vector<VertexId> fan_edges_;  // other ends of the edges of lines at each vertex
+    std::vector<VertexId> fan_edges_;  // other ends of the edges of lines at each vertex, ascending
+    std::vector<Closure> closures_;    // of the fan at each vertex
     std::size_t steps_ = 0;
 };
 
