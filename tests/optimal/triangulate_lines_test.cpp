@@ -247,6 +247,36 @@ TEST_SUITE("optimal/triangulate_lines") {
         }
     }
 
+    TEST_CASE("where the terrain ends is no line that others could clash with") {
+        // The hull runs from z 0 to z 1 through (5, 0), where a line on it has z 7.
+        const std::vector<Point3> samples = {{0, 0, 0}, {10, 0, 1}, {0, 10, 0}, {10, 10, 1}};
+        const std::vector<Breakline> lines = {{{{5, 0, 7}, {5, 5, 7}}},
+                                              {{{5, 8, kDraped}, {15, 8, kDraped}}}};
+        const Triangulated made = triangulate(samples, lines);
+        CHECK(area_of(made.tin) == doctest::Approx(100));
+        for (std::uint32_t v = 0; v < made.tin.vertex_count(); ++v) {
+            const Point3 p = made.tin.position({v});
+            if (p.x == 5 && p.y == 0) {
+                CHECK(p.z == 7);
+            }
+        }
+    }
+
+    TEST_CASE("lines from another system meet the samples that they go through") {
+        std::vector<Point3> samples = square_samples(10);
+        for (Point3& p : samples) {
+            p.x += 500000;
+            p.y += 4000000;
+        }
+        // A billionth off, as a transformation there and back leaves them.
+        const std::vector<Breakline> lines = {
+            {{{500001.0000000007, 4000001.0000000005, 3}, {500007.9999999991, 4000007.000000001, 23}}}};
+        const Triangulated made = triangulate(samples, lines);
+        CHECK(made.tin.vertex_count() == samples.size());
+        CHECK(made.tin.lattice.decimals() == 0);
+        CHECK(constrained_delaunay_defect(made.tin) == "");
+    }
+
     TEST_CASE("a draped line takes the elevations of the samples' TIN") {
         const std::vector<Breakline> lines = {{{{0.5, 0.5, kDraped}, {7.25, 3.5, kDraped}}}};
         const Triangulated made = triangulate(square_samples(10), lines, tolerant());

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "tinwright/delaunay/delaunay_edges.hpp"
 #include "tinwright/delaunay/propagation.hpp"
 #include "tinwright/delaunay/steiner_point.hpp"
 #include "tinwright/geometry/constructions.hpp"
@@ -60,19 +61,14 @@ class Splitter {
         }
     }
 
-    // Edges that are still open.
-    [[nodiscard]] std::size_t count_open() const {
-        std::vector<std::pair<VertexId, VertexId>> open;
-        const auto add = [&](const Open& edge) {
+    // Whether any edge of a line is still open.
+    [[nodiscard]] bool has_open() const {
+        const auto is_still_open = [&](const Open& edge) {
             const std::optional<HalfEdgeId> h = find(edge);
-            if (h && is_open(tin_, *h) && inserter_.line_edge_of(edge.a, edge.b) != SteinerInserter::kFree) {
-                open.emplace_back(std::min(edge.a, edge.b), std::max(edge.a, edge.b));
-            }
+            return h && is_open(tin_, *h) && inserter_.line_edge_of(edge.a, edge.b) != SteinerInserter::kFree;
         };
-        std::for_each(queue_.begin(), queue_.end(), add);
-        std::for_each(given_up_.begin(), given_up_.end(), add);
-        std::sort(open.begin(), open.end());
-        return static_cast<std::size_t>(std::unique(open.begin(), open.end()) - open.begin());
+        return std::any_of(queue_.begin(), queue_.end(), is_still_open) ||
+               std::any_of(given_up_.begin(), given_up_.end(), is_still_open);
     }
 
   private:
@@ -288,8 +284,9 @@ ConformingReport make_conforming(Tin& tin, const ConformingOptions& options) {
     // After blocking, what rounding to the lattice has spoiled.
     Splitter splitter(inserter, max_steiner, options.progress);
     splitter.run();
-    report.open_edges = splitter.count_open();
+    const bool has_open_edges = splitter.has_open();
     inserter.finish();
+    report.open_edges = has_open_edges ? count_open_edges(tin) : 0;
     report.steiner_vertices = tin.vertex_count() - old_count;
     report.is_conforming = report.open_edges == 0;
     report.is_budget_spent = !report.is_conforming && report.steiner_vertices >= max_steiner;
@@ -298,16 +295,18 @@ ConformingReport make_conforming(Tin& tin, const ConformingOptions& options) {
 
 std::size_t count_open_edges(const Tin& tin) {
     const std::vector<HalfEdgeId> starts = find_starts(tin.mesh);
-    std::size_t open = 0;
-    for (std::size_t i = 0; i < tin.traces.size(); ++i) {
-        const auto& [a, b, line, runs] = tin.traces[i];
-        if (i > 0 && tin.traces[i - 1].a == a && tin.traces[i - 1].b == b) {
-            continue;
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
+    bool all_closed = true;
+    for (const LineTrace& trace : tin.traces) {
+        const std::pair edge(trace.a.value, trace.b.value);
+        if (edges.empty() || edges.back() != edge) {
+            edges.push_back(edge);
+            const std::optional<HalfEdgeId> h = find_half_edge(tin.mesh, starts[trace.a.value], trace.b);
+            all_closed = all_closed && h && !is_open(tin, *h);
         }
-        const std::optional<HalfEdgeId> h = find_half_edge(tin.mesh, starts[a.value], b);
-        open += !h || is_open(tin, *h) ? 1U : 0U;
     }
-    return open;
+    // One open edge is enough to hide vertices from others.
+    return all_closed ? 0 : count_edges_without_disk(tin.keys, edges);
 }
 
 }  // namespace tinwright

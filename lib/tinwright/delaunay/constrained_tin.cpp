@@ -155,14 +155,15 @@ class Maker {
         }
     }
 
-    // A line that is draped all along, whatever it has got where it meets others.
+    // A line that is draped all along, whatever it has got where it meets others. So is the ring.
     [[nodiscard]] bool is_draped_line(std::uint32_t number) const {
-        return !is_ring(number) && std::all_of(lines_[number].points.begin(), lines_[number].points.end(),
-                                               [](const Point3& p) { return std::isnan(p.z); });
+        return is_ring(number) || std::all_of(lines_[number].points.begin(), lines_[number].points.end(),
+                                              [](const Point3& p) { return std::isnan(p.z); });
     }
 
     [[nodiscard]] bool is_draped_border(const NodedPiece& piece) const {
-        return is_draped_[piece.line] && lines_[piece.line].role != LineRole::Breakline;
+        return !is_ring(piece.line) && is_draped_[piece.line] &&
+               lines_[piece.line].role != LineRole::Breakline;
     }
 
     // A border takes nothing from the terrain: where it is draped, it gets a vertex at every edge it crosses,
@@ -303,10 +304,8 @@ class Maker {
     }
 
     void resolve_elevations() {
-        std::vector<LineConflict> clashes =
+        const std::vector<LineConflict> clashes =
             resolve_meetings(tin(), std::move(meetings_), options_.duplicates, result_.duplicates);
-        // The ring around the terrain is nobody's line, and has the elevations of what is on it.
-        std::erase_if(clashes, [this](const LineConflict& clash) { return is_ring(clash.line_a); });
         result_.lines.conflicts.insert(result_.lines.conflicts.end(), clashes.begin(), clashes.end());
     }
 
@@ -324,7 +323,7 @@ class Maker {
             while (i < outside.size() && outside[i] < vertex_of_[k]) {
                 ++i;  // of a border, between its points
             }
-            if (i == outside.size() || vertex_of_[k] != outside[i]) {
+            if (i == outside.size() || vertex_of_[k] != outside[i] || is_on_ring_[k]) {
                 continue;
             }
             LineConflict conflict;

@@ -74,7 +74,7 @@ std::optional<Breakline> find_terrain_ring(std::span<const Breakline> lines, con
     ring.role = LineRole::Hole;
     for (const Place& place : hull) {
         const Point2 at = lattice.position(place.key);
-        ring.points.push_back({at.x, at.y, place.z});
+        ring.points.push_back({at.x, at.y, kDraped});
     }
     ring.points.push_back(ring.points.front());
     return ring;

@@ -192,6 +192,23 @@ std::optional<Lattice> find_refined(const std::array<std::span<const Point3>, 2>
     return coarsest;
 }
 
+// The samples' decimal lattice, refined for lines that are not on it (transformed from another CRS, say) and
+// are rounded to it. Empty where samples are not decimal or little room is left.
+std::optional<Lattice> refine_for_lines(int sample_decimals, const Box& bounds) {
+    constexpr int kLeastBits = 8;
+    const double largest = std::max(
+        {std::abs(bounds.x_min), std::abs(bounds.x_max), std::abs(bounds.y_min), std::abs(bounds.y_max)});
+    if (sample_decimals > kMostDecimals || largest * steps_of(sample_decimals, 0) >= kStepLimit) {
+        return std::nullopt;
+    }
+    const double steps_per_unit = steps_of(sample_decimals, 0);
+    const Lattice plain = Lattice::decimal(sample_decimals, {std::floor(bounds.x_min * steps_per_unit),
+                                                             std::floor(bounds.y_min * steps_per_unit)});
+    const Key2 corner = plain.key({bounds.x_max, bounds.y_max});
+    const int bits = plain.refinement_room(std::max(corner.x, corner.y) + 1);
+    return bits < kLeastBits ? std::nullopt : std::optional(plain.refined(bits));
+}
+
 }  // namespace
 
 Lattice Lattice::decimal(int decimals, Key2 origin) {
@@ -239,6 +256,7 @@ FoundLattice find_lattice(std::span<const Point3> samples, std::span<const Point
     if (seen.first_bad != kNone) {
         throw_bad(samples, seen.first_bad);
     }
+    const int sample_decimals = samples.empty() ? kMostDecimals + 1 : seen.decimals;
     if (!line_points.empty()) {
         const Survey of_lines = survey({line_points, false});
         if (of_lines.first_bad != kNone) {
@@ -269,6 +287,12 @@ FoundLattice find_lattice(std::span<const Point3> samples, std::span<const Point
 
     if (const std::optional<Lattice> refined = find_refined({samples, line_points}, bounds)) {
         return {*refined, bounds};
+    }
+
+    if (!line_points.empty()) {
+        if (const std::optional<Lattice> refined = refine_for_lines(sample_decimals, bounds)) {
+            return {*refined, bounds};
+        }
     }
 
     const double extent = std::max(bounds.x_max - bounds.x_min, bounds.y_max - bounds.y_min);

@@ -97,10 +97,11 @@ struct FoundLattice {
 /// largest coordinate) is taken and `is_exact()` is false.
 ///
 /// `samples`: n of them, any order; the result does not depend on it. `line_points`: more of them, whose x
-/// and y count in the same way; their z is not looked at.
-/// Throws InputError naming the first sample with an x, y or z that is not finite, and for decimal data
-/// whose extent needs more than 2^45 steps.
-/// Cost: O(n), parallel inside the caller's task arena. [DESIGN of keys: docs/robustness.md]
+/// and y count in the same way; their z is not looked at. Where the samples are decimal and only they are
+/// (lines come from another CRS, say), it is the samples' lattice refined as far as it can be: samples lie on
+/// it, lines are moved to it, by half of one of its steps at most. Throws InputError naming the first sample
+/// with an x, y or z that is not finite, and for decimal data whose extent needs more than 2^45 steps. Cost:
+/// O(n), parallel inside the caller's task arena. [DESIGN of keys: docs/robustness.md]
 FoundLattice find_lattice(std::span<const Point3> samples, std::span<const Point3> line_points = {});
 
 }  // namespace tinwright
