@@ -126,6 +126,8 @@ class LineRepairer {
         constexpr std::size_t kMostRounds = 8;
         LineRepair repair;
         repair.found = check(lines_);
+        found_snap_ = repair.found.snap;
+        found_dangling_ = repair.found.dangling;
         refuse_clashes(repair.found);
         do {
             do_round(repair.rounds == 0);
@@ -164,6 +166,8 @@ class LineRepairer {
     const LineRepairOptions& options_;
     Lattice lattice_;
     std::vector<WorkLine> work_;
+    double found_snap_ = 0;  // the distances of the first audit, CRS units
+    double found_dangling_ = 0;
 };
 
 std::vector<Breakline> LineRepairer::lines_at_work() const {
@@ -177,6 +181,9 @@ std::vector<Breakline> LineRepairer::lines_at_work() const {
 LineCheckOptions LineRepairer::check_options() const {
     LineCheckOptions options = options_.check;
     options.progress = {};
+    // Noding shortens segments; what was near, or dangling, before is judged by the same distances after.
+    options.snap = found_snap_;
+    options.dangling = found_dangling_;
     options.traits.clear();
     for (const WorkLine& work : work_) {
         options.traits.push_back(work.traits);
