@@ -293,20 +293,27 @@ ConformingReport make_conforming(Tin& tin, const ConformingOptions& options) {
     return report;
 }
 
-std::size_t count_open_edges(const Tin& tin) {
+bool is_conforming(const Tin& tin) {
     const std::vector<HalfEdgeId> starts = find_starts(tin.mesh);
+    return std::all_of(tin.traces.begin(), tin.traces.end(), [&](const LineTrace& trace) {
+        const std::optional<HalfEdgeId> h = find_half_edge(tin.mesh, starts[trace.a.value], trace.b);
+        return h && !is_open(tin, *h);
+    });
+}
+
+std::size_t count_open_edges(const Tin& tin) {
+    if (is_conforming(tin)) {
+        return 0;
+    }
     std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
-    bool all_closed = true;
     for (const LineTrace& trace : tin.traces) {
         const std::pair edge(trace.a.value, trace.b.value);
         if (edges.empty() || edges.back() != edge) {
             edges.push_back(edge);
-            const std::optional<HalfEdgeId> h = find_half_edge(tin.mesh, starts[trace.a.value], trace.b);
-            all_closed = all_closed && h && !is_open(tin, *h);
         }
     }
     // One open edge is enough to hide vertices from others.
-    return all_closed ? 0 : count_edges_without_disk(tin.keys, edges);
+    return count_edges_without_disk(tin.keys, edges);
 }
 
 }  // namespace tinwright

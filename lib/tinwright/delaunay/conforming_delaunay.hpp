@@ -40,7 +40,10 @@ struct ConformingReport {
 /// Throws Cancelled. O((n + s) log n) for s Steiner points in practice.
 ConformingReport make_conforming(Tin& tin, const ConformingOptions& options = {});
 
-/// Number of edges of lines that lie in no empty disk: exact. O(n) when there are none; else O(n log n),
+/// Whether every edge of a line lies in an empty disk. `tin`: constrained Delaunay. Exact. O(n).
+bool is_conforming(const Tin& tin);
+
+/// Number of edges of lines that lie in no empty disk. Exact. O(n) when there are none; else O(n log n),
 /// since one such edge hides vertices from others, and the Delaunay triangulation of all vertices has to
 /// tell.
 std::size_t count_open_edges(const Tin& tin);

@@ -194,6 +194,7 @@ class Maker {
         draped_.clear();
         meetings_.clear();
         result_.lines.crossing_vertices = 0;
+        result_.lines.draped_vertices = border_points_.size();
         const std::size_t most = keys.size() + noded.size() + border_points_.size() + spare_vertices();
         tin().keys.reserve(most);
         tin().z.reserve(most);
@@ -232,6 +233,7 @@ class Maker {
                                            : static_cast<std::uint32_t>(samples_.size()) + noded_.origin[k]);
                 result_.lines.crossing_vertices += is_crossing && !is_on_ring_[k] ? 1U : 0U;
                 if (std::isnan(noded_.z[k])) {
+                    result_.lines.draped_vertices += is_on_ring_[k] ? 0U : 1U;
                     draped_.push_back(v);
                 }
             }
@@ -310,7 +312,6 @@ class Maker {
     }
 
     void lay_draped() {
-        result_.lines.draped_vertices = draped_.size();
         std::vector<VertexId> outside;
         for (const VertexId v : draped_) {
             const Drape::Elevation found = drape_->at(tin().key(v));

@@ -219,7 +219,7 @@ Triangulated triangulate_here(std::span<const Point3> samples, std::span<const B
         report.is_conforming = report.conforming->is_conforming;
         report.hull_vertices = tin.mesh.slot_count() - tin.mesh.count_terrain();
     } else {
-        report.is_conforming = lines.empty() || count_open_edges(tin) == 0;
+        report.is_conforming = lines.empty() || is_conforming(tin);
     }
     apply_domain_rules(result, lines, terrain_ring, options);
     report.constrain_seconds = seconds_since(domain_start);
