@@ -100,8 +100,8 @@ class Maker {
                 "lines' z with z=FIELD or z=NUMBER");
         }
         drape_.emplace(sample_vertices_.keys, sample_vertices_.z);
-        result_.terrain_ring = find_terrain_ring(lines_, *drape_, sample_vertices_.lattice,
-                                                 sample_vertices_.keys, sample_vertices_.z);
+        result_.terrain_ring =
+            find_terrain_ring(lines_, *drape_, sample_vertices_.lattice, sample_vertices_.keys);
         if (result_.terrain_ring) {
             lines_with_ring_.assign(lines_.begin(), lines_.end());
             lines_with_ring_.push_back(*result_.terrain_ring);
@@ -129,6 +129,7 @@ class Maker {
         if (options_.wants_fine_lattice || has_draped_border ||
             !std::all_of(noded_.keys.begin(), noded_.keys.end(), is_plain)) {
             tin().lattice = fine;
+            // The drape looks at these keys too; a Delaunay triangulation stays one when they are scaled.
             for (Key2& key : sample_vertices_.keys) {
                 key = {key.x * scale, key.y * scale};
             }

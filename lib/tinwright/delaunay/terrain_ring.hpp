@@ -12,11 +12,10 @@ namespace tinwright {
 
 /// The convex hull of everything that has an elevation, samples and points of lines, as a closed ring with
 /// every such place on it; empty when no point to be draped lies outside it. Its own points are to be draped:
-/// it has nothing to say to the lines it meets. `drape`: of the samples at `keys` with elevations `z`, on
+/// it has nothing to say to the lines it meets. `drape`: of the samples at `keys`, on
 /// `lattice`. O(h + p log p) for h samples on their hull and p points of lines.
 std::optional<Breakline> find_terrain_ring(std::span<const Breakline> lines, const Drape& drape,
-                                           const Lattice& lattice, std::span<const Key2> keys,
-                                           std::span<const double> z);
+                                           const Lattice& lattice, std::span<const Key2> keys);
 
 }  // namespace tinwright
 
