@@ -127,6 +127,21 @@ Inputs read_inputs(const SurfaceRequest& request, Console& console, double end) 
     return inputs;
 }
 
+/// What a TIN file says of where its vertices and lines came from, vertices in the order of the TIN.
+TinOrigins origins_of_file(const Tin& tin, const io::TinFile& file) {
+    TinOrigins origins;
+    origins.lines = file.lines;
+    const auto arrange = [&](const auto& of_file, auto& of_tin, auto missing) {
+        for (std::uint32_t v = 0; v < tin.vertex_count() && !of_file.empty(); ++v) {
+            const std::uint32_t vertex = tin.sample[v];
+            of_tin.push_back(vertex < of_file.size() ? of_file[vertex] : missing);
+        }
+    };
+    arrange(file.origins.source, origins.vertices.source, std::int32_t{0});
+    arrange(file.origins.feature, origins.vertices.feature, std::int64_t{-1});
+    return origins;
+}
+
 }  // namespace
 
 std::string metadata_value(const io::TinMetadata& metadata, const std::string& key) {
@@ -192,6 +207,9 @@ Surface triangulate_sources(const SurfaceRequest& request, Console& console) {
                                                 request.lines->conflicts, request.overwrite_conflicts);
         }
     }
+    for (const Breakline& line : inputs.lines.lines) {
+        surface.is_line_sharp.push_back(line.is_sharp);
+    }
     surface.tin = std::move(made.tin);
     surface.report = std::move(made.report);
     surface.criterion = make_criterion_report(request.triangulation, surface.report->optimize, surface.crs);
@@ -223,6 +241,12 @@ Surface read_existing_tin(const SurfaceRequest& request, Console& console) {
     const io::Crs assigned = request.crs.source_crs();
     Surface surface;
     surface.tin = io::make_tin(file);
+    for (const io::LineOrigin& line : file.lines) {
+        surface.is_line_sharp.push_back(line.is_sharp);
+    }
+    if (request.keep_origins) {
+        surface.origins = origins_of_file(surface.tin, file);
+    }
     surface.crs = file.crs.is_known() ? file.crs : assigned.is_known() ? assigned : wanted;
     surface.z_unit = surface.crs.z_unit();
     surface.metadata = std::move(file.metadata);

@@ -33,7 +33,9 @@ struct Surface {
     std::optional<TriangulateReport> report;  ///< only when triangulated
     CriterionReport criterion;
     LinesSummary lines;
-    TinOrigins origins;          ///< as a TIN file keeps them
+    TinOrigins origins;  ///< as a TIN file keeps them; of a TIN file: what it says
+    /// For each line that the TIN's traces number: whether the surface may have a crease along it.
+    std::vector<bool> is_line_sharp;
     io::TinMetadata metadata;    ///< of the TIN file
     std::string tin_layer;       ///< of the TIN file
     std::size_t void_faces = 0;  ///< dropped by --max-edge from a TIN file

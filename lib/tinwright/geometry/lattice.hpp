@@ -44,6 +44,8 @@ class Lattice {
 
     /// Length of one step, CRS units.
     [[nodiscard]] double quantum() const;
+    /// Its inverse, which is exact.
+    [[nodiscard]] double steps_per_unit() const { return steps_per_unit_; }
     /// Number of decimals of a decimal lattice, -1 for a binary one.
     [[nodiscard]] int decimals() const { return decimals_; }
     /// Exponent of a binary lattice (its quantum is 2^exponent); 0 for a decimal one.

@@ -1,0 +1,1 @@
+#include "tinwright/surface/clough_tocher.hpp"

@@ -1,0 +1,55 @@
+#include "tinwright/surface/interpolation.hpp"
+
+#include <stdexcept>
+
+#include "tinwright/surface/clough_tocher.hpp"
+#include "tinwright/surface/linear.hpp"
+#include "tinwright/surface/natural_neighbor.hpp"
+#include "tinwright/surface/nearest.hpp"
+
+namespace tinwright {
+
+namespace {
+
+bool is_smooth(InterpolationMethod method) {
+    return method == InterpolationMethod::Smooth || method == InterpolationMethod::SmoothC1;
+}
+
+}  // namespace
+
+void check_interpolation(const InterpolationOptions& options) {
+    if (is_smooth(options.method)) {
+        check_smooth(options.smooth);
+    }
+}
+
+std::unique_ptr<Interpolator> make_interpolator(const Tin& tin, const SharpEdges& sharp,
+                                                const InterpolationOptions& options) {
+    using Kind = NaturalNeighborOptions::Kind;
+    SmoothOptions smooth = options.smooth;
+    switch (options.method) {
+        case InterpolationMethod::Linear:
+            return make_linear(tin);
+        case InterpolationMethod::Nearest:
+            return make_nearest(tin);
+        case InterpolationMethod::NaturalNeighbor:
+            return make_natural_neighbor(tin, sharp, {Kind::Sibson, options.gradients});
+        case InterpolationMethod::NaturalNeighborLaplace:
+            return make_natural_neighbor(tin, sharp, {Kind::Laplace, options.gradients});
+        case InterpolationMethod::NaturalNeighborC1:
+            return make_natural_neighbor(tin, sharp, {Kind::C1, options.gradients});
+        case InterpolationMethod::CloughTocher:
+            return make_clough_tocher(tin, sharp, {options.gradients, false});
+        case InterpolationMethod::CloughTocherLimit:
+            return make_clough_tocher(tin, sharp, {options.gradients, true});
+        case InterpolationMethod::Smooth:
+            smooth.is_c1 = false;
+            return make_smooth(tin, sharp, smooth);
+        case InterpolationMethod::SmoothC1:
+            smooth.is_c1 = true;
+            return make_smooth(tin, sharp, smooth);
+    }
+    throw std::logic_error("unknown interpolation method");
+}
+
+}  // namespace tinwright
