@@ -32,7 +32,7 @@ class SurfaceReader {
     SurfaceReader(const SurfaceReader&) = delete;
     SurfaceReader& operator=(const SurfaceReader&) = delete;
 
-    /// Elevation; a vertex's own, bit for bit, at the vertex.
+    /// Elevation; at a vertex its own, bit for bit (`nearest`: of a vertex that was given).
     virtual double elevation(const SurfacePlace& place) = 0;
     /// Elevation (the same bits) and gradient. Where the surface has a crease, or a vertex that it is not
     /// differentiable at, the gradient is that on the side of `place.face`.

@@ -102,6 +102,14 @@ ScanAxis make_rounded_axis(const AxisRequest& request) {
 
 }  // namespace
 
+std::vector<double> ScanAxis::centres_at(double steps) const {
+    std::vector<double> at(centres.size());
+    // The quotient is the centre on the TIN's lattice, rounded once: exact where the centre lies on it.
+    std::transform(centres.begin(), centres.end(), at.begin(),
+                   [&](double centre) { return std::nearbyint(centre / scale * steps); });
+    return at;
+}
+
 ScanAxis make_scan_axis(const Lattice& lattice, double origin, double key_limit, AxisDirection direction,
                         double start, double step, std::int64_t count) {
     const AxisRequest request{lattice, origin, key_limit, direction == AxisDirection::East ? 1.0 : -1.0,

@@ -17,6 +17,9 @@ struct ScanAxis {
     /// How far (in cells) a coordinate computed as (x - centres[0]) * inverse_step, or by interpolation
     /// between two of them, may be off. Nearer to a centre than this, exact arithmetic has to decide.
     double uncertainty = 0;
+
+    /// The centres in whole steps of which `steps` make one of the TIN's lattice.
+    [[nodiscard]] std::vector<double> centres_at(double steps) const;
 };
 
 enum class AxisDirection { East, South };

@@ -5,7 +5,9 @@
 #include <atomic>
 #include <cassert>
 #include <cmath>
+#include <cstring>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -79,43 +81,95 @@ RowRange rows_of_face(const Scene& scene, FaceId f) {
     return {std::min(std::min(a, b), c), std::max(std::max(a, b), c) - 1};
 }
 
-/// Writes one band of rows.
-template <class Value>
-class BandWriter {
-  public:
-    BandWriter(const Scene& scene, std::int32_t first_row, std::int32_t end_row, Value* values)
-        : scene_(scene), first_row_(first_row), end_row_(end_row), values_(values) {}
+/// Columns first..end - 1 of a row, or rows.
+struct Span {
+    std::int32_t first = 0;
+    std::int32_t end = 0;
+};
 
-    /// Cells whose centres lie in the face, closed at its left and bottom. Returns how many.
-    std::int64_t write_face(FaceId f, SpanQueue<Value>& queue) const;
-    /// Hands cells whose centres lie exactly on the edge, and their values, to `visit(index, value)`.
+/// Writes elevations.
+template <class Value>
+class ElevationBrush {
+  public:
+    explicit ElevationBrush(const ScanLattice& lattice) : lattice_(lattice), queue_(lattice.column_x()) {}
+
+    void start(FaceId /*face*/, const std::array<ScanVertex, 3>& corner) {
+        plane_.emplace(std::array<SurfaceCorner, 3>{
+            {{corner[0].key, corner[0].z}, {corner[1].key, corner[1].z}, {corner[2].key, corner[2].z}}});
+        queue_.start(plane_->section());
+    }
+    void paint(Value* row, double y, Span columns) {
+        if (!plane_->is_needle()) {
+            queue_.push(row, plane_->row_value(y), columns.first, columns.end);
+            return;
+        }
+        for (std::int32_t column = columns.first; column < columns.end; ++column) {
+            row[column] = static_cast<Value>(plane_->needle_value({lattice_.column_x(column), y}));
+        }
+    }
+
+  private:
+    const ScanLattice& lattice_;
+    std::optional<FacePlane> plane_;
+    SpanQueue<Value> queue_;
+};
+
+/// Writes the faces themselves.
+class FaceBrush {
+  public:
+    explicit FaceBrush(const ScanLattice& /*lattice*/) {}
+
+    void start(FaceId face, const std::array<ScanVertex, 3>& /*corner*/) { face_ = face; }
+    void paint(FaceId* row, double /*y*/, Span columns) const {
+        for (std::int32_t column = columns.first; column < columns.end; ++column) {
+            row[column] = face_;
+        }
+    }
+
+  private:
+    FaceId face_{};
+};
+
+/// Elevation of a place on an edge.
+double elevation_on(const ScanVertex& from, const ScanVertex& to, Key2 at) {
+    if (at == to.key) {
+        return to.z;
+    }
+    const bool is_steep = to.key.y - from.key.y > std::abs(to.key.x - from.key.x);
+    const double along = is_steep ? (at.y - from.key.y) / (to.key.y - from.key.y)
+                                  : (at.x - from.key.x) / (to.key.x - from.key.x);
+    return std::clamp(from.z + (to.z - from.z) * along, std::min(from.z, to.z), std::max(from.z, to.z));
+}
+
+/// The cells of one band of rows, and which of them a face or an edge covers.
+class Band {
+  public:
+    Band(const Scene& scene, Span rows) : scene_(scene), rows_(rows) {}
+
+    /// Paints the cells whose centres lie in the face, closed at its left and bottom, of an array that holds
+    /// the band. Returns how many.
+    template <class Brush, class Value>
+    std::int64_t paint_face(FaceId f, Brush& brush, Value* values) const;
+    /// Hands cells whose centres lie exactly on the edge to `visit(index, centre)`.
     template <class Visit>
     void visit_edge(HalfEdgeId h, const Visit& visit) const;
 
   private:
-    struct Span {
-        std::int32_t first = 0;
-        std::int32_t end = 0;
-    };
-
-    void write_needle(const FacePlane& plane, double y, Value* row, Span columns) const;
     [[nodiscard]] std::size_t index(std::int32_t row, std::int32_t column) const {
-        return static_cast<std::size_t>(row - first_row_) *
+        return static_cast<std::size_t>(row - rows_.first) *
                    static_cast<std::size_t>(scene_.lattice.columns()) +
                static_cast<std::size_t>(column);
     }
-    [[nodiscard]] Span within_band(std::int32_t first, std::int32_t end) const {
-        return {std::max(first, first_row_), std::min(end, end_row_)};
+    [[nodiscard]] Span within(std::int32_t first, std::int32_t end) const {
+        return {std::max(first, rows_.first), std::min(end, rows_.end)};
     }
 
     const Scene& scene_;
-    std::int32_t first_row_;
-    std::int32_t end_row_;
-    Value* values_;
+    Span rows_;
 };
 
-template <class Value>
-std::int64_t BandWriter<Value>::write_face(FaceId f, SpanQueue<Value>& queue) const {
+template <class Brush, class Value>
+std::int64_t Band::paint_face(FaceId f, Brush& brush, Value* values) const {
     const auto& v = scene_.tin.mesh.face(f).vertex;
     // The corner with the smallest id first, so that the plane does not depend on where the face starts.
     unsigned first = v[1] < v[0] ? 1 : 0;
@@ -130,70 +184,42 @@ std::int64_t BandWriter<Value>::write_face(FaceId f, SpanQueue<Value>& queue) co
     const ScanVertex& bottom = corner[low];
     const ScanVertex& middle = corner[is_left_top ? right : left];
     const ScanVertex& top = corner[is_left_top ? left : right];
-    const Span rows = within_band(top.row, bottom.row);
+    const Span rows = within(top.row, bottom.row);
     const ScanLattice& lattice = scene_.lattice;
     const double west = std::min(std::min(bottom.key.x, middle.key.x), top.key.x);
     const double east = std::max(std::max(bottom.key.x, middle.key.x), top.key.x);
     if (rows.first >= rows.end || lattice.is_beside(west, east)) {
         return 0;
     }
-    const FacePlane plane(
-        {{{corner[0].key, corner[0].z}, {corner[1].key, corner[1].z}, {corner[2].key, corner[2].z}}});
+    brush.start(f, corner);
     const bool is_inside = lattice.is_inside(west, east);
     const CutEdge whole = lattice.cut(bottom.key, top.key);
     const std::array<CutEdge, 2> part{lattice.cut(middle.key, top.key), lattice.cut(bottom.key, middle.key)};
-    queue.start(plane.section());
     std::int64_t cells = 0;
     for (std::int32_t row = rows.first; row < rows.end; ++row) {
         const double y = lattice.row_y(row);
         const auto at = lattice.first_columns(whole, part[row < middle.row ? 0 : 1], y, is_inside);
         const Span columns{is_left_top ? at[0] : at[1], is_left_top ? at[1] : at[0]};
-        Value* const values = values_ + index(row, 0);
-        if (plane.is_needle()) {
-            write_needle(plane, y, values, columns);
-        } else {
-            queue.push(values, plane.row_value(y), columns.first, columns.end);
-        }
+        brush.paint(values + index(row, 0), y, columns);
         cells += columns.end - columns.first;
     }
     return cells;
 }
 
-template <class Value>
-void BandWriter<Value>::write_needle(const FacePlane& plane, double y, Value* row, Span columns) const {
-    for (std::int32_t column = columns.first; column < columns.end; ++column) {
-        row[column] = static_cast<Value>(plane.needle_value({scene_.lattice.column_x(column), y}));
-    }
-}
-
-template <class Value>
 template <class Visit>
-void BandWriter<Value>::visit_edge(HalfEdgeId h, const Visit& visit) const {
+void Band::visit_edge(HalfEdgeId h, const Visit& visit) const {
     const ScanLattice& lattice = scene_.lattice;
     const std::pair<ScanVertex, ScanVertex> end = ends(scene_, h);  // lower, upper
     const Key2 from = end.first.key;
     const Key2 to = end.second.key;
-    const double from_z = end.first.z;
-    const double to_z = end.second.z;
     const RowRange touched = rows_of_edge(scene_, h);
-    const Span rows = within_band(touched.first, touched.last + 1);
-    const bool is_steep = to.y - from.y > std::abs(to.x - from.x);
-    const auto visit_cell = [&](std::int32_t row, std::int32_t column) {
-        const Key2 at{lattice.column_x(column), lattice.row_y(row)};
-        if (at == to) {
-            visit(index(row, column), to_z);
-            return;
-        }
-        const double along = is_steep ? (at.y - from.y) / (to.y - from.y) : (at.x - from.x) / (to.x - from.x);
-        const double z = from_z + (to_z - from_z) * along;
-        visit(index(row, column), std::clamp(z, std::min(from_z, to_z), std::max(from_z, to_z)));
-    };
+    const Span rows = within(touched.first, touched.last + 1);
     if (from.y == to.y) {
         const double* x = lattice.column_x();
         const double* past = std::upper_bound(x, x + lattice.columns(), to.x);
         for (std::int32_t row = rows.first; row < rows.end; ++row) {
             for (const double* at = std::lower_bound(x, past, from.x); at < past; ++at) {
-                visit_cell(row, static_cast<std::int32_t>(at - x));
+                visit(index(row, static_cast<std::int32_t>(at - x)), Key2{*at, lattice.row_y(row)});
             }
         }
         return;
@@ -203,7 +229,7 @@ void BandWriter<Value>::visit_edge(HalfEdgeId h, const Visit& visit) const {
         const double y = lattice.row_y(row);
         const std::int32_t column = lattice.first_column(edge, y);
         if (column < lattice.columns() && lattice.is_on(edge, column, y)) {
-            visit_cell(row, column);
+            visit(index(row, column), Key2{lattice.column_x(column), y});
         }
     }
 }
@@ -235,10 +261,17 @@ struct ScanConverter::State {
         return {static_cast<std::int32_t>(first),
                 static_cast<std::int32_t>(std::min<std::int64_t>(first + band_rows, scene.lattice.rows()))};
     }
+    /// Clears the cells of a band, then paints them with the faces that cover them. `on_edge(half-edge,
+    /// centre)` is what a cell on the border gets. Returns the number of cells with a value.
+    template <class Brush, class Value, class OnEdge>
+    std::int64_t fill(std::size_t band, std::span<Value> values, Value nodata, Value marker,
+                      const OnEdge& on_edge) const;
     template <class Value>
-    std::int64_t write_faces(const BandWriter<Value>& writer, std::size_t band) const;
-    template <class Value>
-    std::int64_t fill(std::size_t band, std::span<Value> values, Value nodata) const;
+    std::int64_t fill_elevations(std::size_t band, std::span<Value> values, Value nodata) const;
+
+  private:
+    template <class Brush, class Value>
+    std::int64_t paint_faces(const Band& cells, std::size_t band, Value* values) const;
 };
 
 ScanConverter::State::State(const Tin& tin, const GridGeometry& grid, std::int64_t rows_of_a_band)
@@ -255,61 +288,70 @@ ScanConverter::State::State(const Tin& tin, const GridGeometry& grid, std::int64
                       [&](std::size_t i) { return rows_of_edge(scene, border[i]); });
 }
 
-template <class Value>
-std::int64_t ScanConverter::State::write_faces(const BandWriter<Value>& writer, std::size_t band) const {
-    std::atomic<std::int64_t> cells = 0;
-    if (bands == 1) {
-        tbb::parallel_for(Range(0, scene.tin.mesh.slot_count(), kGrain), [&](const Range& range) {
-            SpanQueue<Value> queue(scene.lattice.column_x());
-            std::int64_t written = 0;
+template <class Brush, class Value>
+std::int64_t ScanConverter::State::paint_faces(const Band& cells, std::size_t band, Value* values) const {
+    std::atomic<std::int64_t> painted = 0;
+    const bool is_all = bands == 1;
+    const std::span<const std::uint32_t> items = is_all ? std::span<const std::uint32_t>() : faces.band(band);
+    const std::size_t count = is_all ? scene.tin.mesh.slot_count() : items.size();
+    tbb::parallel_for(Range(0, count, kGrain), [&](const Range& range) {
+        Brush brush(scene.lattice);
+        std::int64_t of_range = 0;
+        if (is_all) {
             for (std::size_t f = range.begin(); f != range.end(); ++f) {
                 const FaceId face{static_cast<std::uint32_t>(f)};
-                written += scene.tin.mesh.is_terrain(face) ? writer.write_face(face, queue) : 0;
+                of_range += scene.tin.mesh.is_terrain(face) ? cells.paint_face(face, brush, values) : 0;
             }
-            cells += written;
-        });
-    } else {
-        const std::span<const std::uint32_t> items = faces.band(band);
-        tbb::parallel_for(Range(0, items.size(), kGrain), [&](const Range& range) {
-            SpanQueue<Value> queue(scene.lattice.column_x());
-            std::int64_t written = 0;
+        } else {
             for (std::size_t i = range.begin(); i != range.end(); ++i) {
-                written += writer.write_face({items[i]}, queue);
+                of_range += cells.paint_face({items[i]}, brush, values);
             }
-            cells += written;
-        });
-    }
-    return cells;
+        }
+        painted += of_range;
+    });
+    return painted;
 }
 
-template <class Value>
-std::int64_t ScanConverter::State::fill(std::size_t band, std::span<Value> values, Value nodata) const {
+template <class Brush, class Value, class OnEdge>
+std::int64_t ScanConverter::State::fill(std::size_t band, std::span<Value> values, Value nodata, Value marker,
+                                        const OnEdge& on_edge) const {
     const auto [first_row, end_row] = rows_of_band(band);
-    const std::size_t cells =
+    const std::size_t count =
         static_cast<std::size_t>(end_row - first_row) * static_cast<std::size_t>(scene.lattice.columns());
-    assert(values.size() >= cells);
-    tbb::parallel_for(Range(0, cells, std::size_t{1} << 16U), [&](const Range& range) {
+    assert(values.size() >= count);
+    tbb::parallel_for(Range(0, count, std::size_t{1} << 16U), [&](const Range& range) {
         std::fill(values.begin() + static_cast<std::ptrdiff_t>(range.begin()),
                   values.begin() + static_cast<std::ptrdiff_t>(range.end()), nodata);
     });
-    const BandWriter<Value> writer(scene, first_row, end_row, values.data());
+    const Band cells(scene, {first_row, end_row});
 
-    // Cells on the border take the edge's value. Their NaN shows whether a face claimed them as well.
-    std::vector<std::pair<std::size_t, double>> on_border;
+    // Cells on the border take the edge's value. The marker shows whether a face claimed them as well.
+    const auto is_marked = [&](Value value) { return std::memcmp(&value, &marker, sizeof(Value)) == 0; };
+    std::vector<std::pair<std::size_t, Value>> on_border;
     for (const std::uint32_t i : edges.band(band)) {
-        writer.visit_edge(border[i], [&](std::size_t cell, double z) {
-            on_border.emplace_back(cell, z);
-            values[cell] = std::numeric_limits<Value>::quiet_NaN();
+        cells.visit_edge(border[i], [&](std::size_t cell, Key2 centre) {
+            on_border.emplace_back(cell, on_edge(border[i], centre));
+            values[cell] = marker;
         });
     }
-    std::int64_t written = write_faces(writer, band);
-    for (const auto& [cell, z] : on_border) {
-        if (std::isnan(values[cell])) {
+    std::int64_t written = paint_faces<Brush>(cells, band, values.data());
+    for (const auto& [cell, value] : on_border) {
+        if (is_marked(values[cell])) {
             ++written;
         }
-        values[cell] = static_cast<Value>(z);
+        values[cell] = value;
     }
     return written;
+}
+
+template <class Value>
+std::int64_t ScanConverter::State::fill_elevations(std::size_t band, std::span<Value> values,
+                                                   Value nodata) const {
+    return fill<ElevationBrush<Value>>(band, values, nodata, std::numeric_limits<Value>::quiet_NaN(),
+                                       [&](HalfEdgeId h, Key2 centre) {
+                                           const auto [from, to] = ends(scene, h);
+                                           return static_cast<Value>(elevation_on(from, to, centre));
+                                       });
 }
 
 ScanConverter::ScanConverter(const Tin& tin, const GridGeometry& grid, std::int64_t band_rows)
@@ -324,11 +366,25 @@ std::pair<std::int64_t, std::int64_t> ScanConverter::band_rows(std::int64_t band
 }
 
 std::int64_t ScanConverter::fill(std::int64_t band, std::span<float> values, float nodata) const {
-    return state_->fill(static_cast<std::size_t>(band), values, nodata);
+    return state_->fill_elevations(static_cast<std::size_t>(band), values, nodata);
 }
 
 std::int64_t ScanConverter::fill(std::int64_t band, std::span<double> values, double nodata) const {
-    return state_->fill(static_cast<std::size_t>(band), values, nodata);
+    return state_->fill_elevations(static_cast<std::size_t>(band), values, nodata);
+}
+
+std::int64_t ScanConverter::fill_faces(std::int64_t band, std::span<FaceId> faces) const {
+    constexpr FaceId kMarker{kNoFace.value - 1};
+    return state_->fill<FaceBrush>(static_cast<std::size_t>(band), faces, kNoFace, kMarker,
+                                   [](HalfEdgeId h, Key2 /*centre*/) { return face_of(h); });
+}
+
+std::vector<double> ScanConverter::columns_at(const QueryLattice& lattice) const {
+    return state_->scene.lattice.columns_at(lattice.scale());
+}
+
+std::vector<double> ScanConverter::rows_at(const QueryLattice& lattice) const {
+    return state_->scene.lattice.rows_at(lattice.scale());
 }
 
 }  // namespace tinwright

@@ -5,13 +5,19 @@
 #include <memory>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "tinwright/mesh/tin.hpp"
 #include "tinwright/surface/grid.hpp"
+#include "tinwright/surface/surface_place.hpp"
 
 namespace tinwright {
 
-/// Linear interpolation of a TIN at the cell centres of a raster, band of rows by band of rows.
+/// Stands for no face, in a raster of faces.
+inline constexpr FaceId kNoFace{0xFFFFFFFFU};
+
+/// Linear interpolation of a TIN at the cell centres of a raster, or the faces they lie on, band of rows by
+/// band of rows.
 ///
 /// Coverage is exact: a cell gets a value if and only if its centre lies inside the terrain or on its
 /// border (holes' borders included), and from exactly one face, or, on the border, from the border edge.
@@ -44,6 +50,14 @@ class ScanConverter {
     /// arena.
     std::int64_t fill(std::int64_t band, std::span<float> values, float nodata) const;
     std::int64_t fill(std::int64_t band, std::span<double> values, double nodata) const;
+
+    /// Writes the face that each cell's centre lies on instead, `kNoFace` outside the terrain. On an edge
+    /// between two faces it is always the same one of them.
+    std::int64_t fill_faces(std::int64_t band, std::span<FaceId> faces) const;
+    /// x of every column's centre in steps of the lattice that surfaces are read by, rounded to whole ones.
+    [[nodiscard]] std::vector<double> columns_at(const QueryLattice& lattice) const;
+    /// y of every row's centre, likewise.
+    [[nodiscard]] std::vector<double> rows_at(const QueryLattice& lattice) const;
 
   private:
     struct State;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "tinwright/geometry/lattice.hpp"
 #include "tinwright/geometry/predicates.hpp"
@@ -40,6 +41,10 @@ class ScanLattice {
     /// y of a row's centre, descending with the row.
     [[nodiscard]] double row_y(std::int32_t row) const { return y_.centres[static_cast<std::size_t>(row)]; }
     [[nodiscard]] Key2 scaled(Key2 key) const { return {key.x * x_.scale, key.y * y_.scale}; }
+
+    /// x of the columns' centres, y of the rows', in whole steps of which `scale` make one of the TIN's.
+    [[nodiscard]] std::vector<double> columns_at(double scale) const { return x_.centres_at(scale); }
+    [[nodiscard]] std::vector<double> rows_at(double scale) const { return y_.centres_at(scale); }
 
     /// The first row whose centre lies strictly below `y`; rows() if there is none. Exact.
     [[nodiscard]] std::int32_t row_below(double y) const;
