@@ -13,6 +13,9 @@ struct Settings {
     std::string scratch;    ///< folder for large files
     std::string tinwright;  ///< the command that is measured
     std::string images;     ///< folder for pictures; empty: none are made
+    std::string data;       ///< folder of the data sets that accuracy is measured on; empty: there is none
+    std::string sets;       ///< beginnings of the names of the sets, separated by commas; empty: all
+    std::string methods;    ///< surfaces to compare, separated by commas; empty: all
 
     [[nodiscard]] std::size_t count(double full) const;
     /// Columns or rows of a raster, or of a grid of points: their product scales.
@@ -32,6 +35,9 @@ void run_noding(const Settings& settings);
 /// Lines in the triangulation: constrained Delaunay, and what makes it conforming.
 void run_constrained(const Settings& settings);
 void run_conforming(const Settings& settings);
+/// Errors of surfaces where elevations are known: of data sets, and on functions as the samples get denser.
+void run_accuracy(const Settings& settings);
+void run_convergence(const Settings& settings);
 
 }  // namespace tinwright_benchmarks
 

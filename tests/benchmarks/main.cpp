@@ -41,13 +41,18 @@ constexpr std::array kBenchmarks{Benchmark{"delaunay", run_delaunay},
                                  Benchmark{"criteria_worst", run_criteria_worst},
                                  Benchmark{"noding", run_noding},
                                  Benchmark{"constrained", run_constrained},
-                                 Benchmark{"conforming", run_conforming}};
+                                 Benchmark{"conforming", run_conforming},
+                                 Benchmark{"accuracy", run_accuracy}};
 
 constexpr const char* kUsage =
     "usage: tinwright_benchmarks delaunay|raster|job|read|criteria|criteria_growth|criteria_worst|\n"
-    "                            noding|constrained|conforming\n"
+    "                            noding|constrained|conforming|accuracy\n"
     "           [--rounds K] [--scale FRACTION] [--tinwright COMMAND] [--images FOLDER]\n"
-    "Prints a table of docs/benchmarks.md. Medians of K interleaved runs (default 5).\n";
+    "           [--data FOLDER] [--sets NAME,...] [--methods METHOD[/GRADIENTS][@CRITERION],...]\n"
+    "Prints a table of docs/benchmarks.md or docs/interpolation.md. Medians of K interleaved runs (default "
+    "5).\n"
+    "Accuracy is measured on the data sets in FOLDER (default: the environment's TINWRIGHT_DATA) and on\n"
+    "generated ones, or on those whose names begin with a NAME.\n";
 
 double positive(const std::string& text) {
     const double value = std::strtod(text.c_str(), nullptr);
@@ -100,6 +105,9 @@ int run(const std::vector<std::string>& arguments) {
     }
     Settings settings;
     settings.tinwright = TINWRIGHT_COMMAND;
+    if (const char* folder = std::getenv("TINWRIGHT_DATA")) {
+        settings.data = folder;
+    }
     const Benchmark* chosen = nullptr;
     for (std::size_t i = 0; i < arguments.size(); ++i) {
         const bool has_value = i + 1 < arguments.size();
@@ -111,6 +119,12 @@ int run(const std::vector<std::string>& arguments) {
             settings.tinwright = arguments[++i];
         } else if (arguments[i] == "--images" && has_value) {
             settings.images = arguments[++i];
+        } else if (arguments[i] == "--data" && has_value) {
+            settings.data = arguments[++i];
+        } else if (arguments[i] == "--sets" && has_value) {
+            settings.sets = arguments[++i];
+        } else if (arguments[i] == "--methods" && has_value) {
+            settings.methods = arguments[++i];
         } else {
             for (const Benchmark& benchmark : kBenchmarks) {
                 chosen = arguments[i] == benchmark.name ? &benchmark : chosen;
