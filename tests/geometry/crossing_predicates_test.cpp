@@ -132,6 +132,45 @@ TEST_SUITE("geometry/predicates: crossings") {
         }
     }
 
+    TEST_CASE("two edges across a line come in the order that their crossings have") {
+        // Edges between points at whole distances to the left and right of a line along an axis meet it at
+        // places that are fractions with small denominators, which are compared as such.
+        for (int seed = 0; seed < cases(3000); ++seed) {
+            CAPTURE(seed);
+            Random random(static_cast<std::uint64_t>(seed));
+            const std::int64_t width = random.integer(0, 1) == 0 ? 4 : 1000000000;
+            const auto edge = [&] {
+                return std::array{random.integer(-width, width), random.integer(1, 1000),
+                                  random.integer(-width, width), random.integer(1, 1000)};
+            };
+            const auto e = edge();
+            const auto f = edge();
+            // x0 y1 + x1 y0 over y0 + y1
+            const std::int64_t left = (e[0] * e[3] + e[2] * e[1]) * (f[1] + f[3]);
+            const std::int64_t right = (f[0] * f[3] + f[2] * f[1]) * (e[1] + e[3]);
+            const int expected = (left > right) - (left < right);
+            const auto key = [](std::int64_t x, std::int64_t y) {
+                return Key2{static_cast<double>(x), static_cast<double>(y)};
+            };
+            const Key2 c = key(e[0], e[1]);
+            const Key2 d = key(e[2], -e[3]);
+            const Key2 g = key(f[0], f[1]);
+            const Key2 h = key(f[2], -f[3]);
+            CHECK(compare_crossings({-5, 0}, {7, 0}, c, d, g, h) == expected);
+            CHECK(compare_crossings({-5, 0}, {7, 0}, d, c, h, g) == expected);
+            CHECK(compare_crossings({-5, 0}, {7, 0}, g, h, c, d) == -expected);
+            CHECK(compare_crossings({0x1p51, 0}, {-0x1p51, 0}, c, d, g, h) == -expected);
+        }
+    }
+
+    TEST_CASE("crossings that differ by less than doubles tell are still in order") {
+        const double far = 0x1p50;
+        // Both edges come down from far away; their feet are one step apart on either side of the line.
+        CHECK(compare_crossings({0, 0}, {10, 0}, {0, far}, {1, -1}, {0, far - 1}, {1, -1}) == 1);
+        CHECK(compare_crossings({0, 0}, {10, 0}, {0, far}, {1, -1}, {0, far}, {1, -1}) == 0);
+        CHECK(compare_crossings({0, 0}, {10, 0}, {-far, far}, {2, -2}, {-far, far}, {3, -3}) == 0);
+    }
+
     TEST_CASE("a segment passes lattice squares as rational arithmetic says, in either direction") {
         for_each_size(300, [](Random& random, int bits) {
             const Key2 a = random_key(random, bits);

@@ -67,13 +67,27 @@ int compare_products(Int128 a, Int128 b, Int128 c, Int128 d) {
     return difference.sign();
 }
 
-// Where a segment meets another, as the fraction num / den of the way from one end to the other, 0 < num <
-// den.
+// Where a segment meets another, as the fraction num / den of the way from one end to the other; 0 < num <
+// den if they cross.
 struct Fraction {
     Int128 num;
     Int128 den;
     double value;  // errs by at most three units of itself
 };
+
+// Of the way from a to b where the line through c and d meets it; the two are not parallel.
+Fraction way_to_line(Key2 a, Key2 b, Key2 c, Key2 d) {
+    const Int128 dx = difference(d.x, c.x);
+    const Int128 dy = difference(d.y, c.y);
+    Fraction way{difference(c.x, a.x) * dy - difference(c.y, a.y) * dx,
+                 difference(b.x, a.x) * dy - difference(b.y, a.y) * dx, 0};
+    if (way.den < 0) {
+        way.num = -way.num;
+        way.den = -way.den;
+    }
+    way.value = static_cast<double>(way.num) / static_cast<double>(way.den);
+    return way;
+}
 
 struct RoundedStep {
     std::int64_t steps;
@@ -235,20 +249,21 @@ bool do_cross(Key2 a, Key2 b, Key2 c, Key2 d) {
 }
 
 RoundedCrossing round_crossing(Key2 a, Key2 b, Key2 c, Key2 d) {
-    const Int128 dx = difference(d.x, c.x);
-    const Int128 dy = difference(d.y, c.y);
-    const std::int64_t along_x = difference(b.x, a.x);
-    const std::int64_t along_y = difference(b.y, a.y);
-    Fraction way{difference(c.x, a.x) * dy - difference(c.y, a.y) * dx, along_x * dy - along_y * dx, 0};
-    if (way.den < 0) {
-        way.num = -way.num;
-        way.den = -way.den;
-    }
-    way.value = static_cast<double>(way.num) / static_cast<double>(way.den);
-    const RoundedStep x = round_part(way, along_x);
-    const RoundedStep y = round_part(way, along_y);
+    const Fraction way = way_to_line(a, b, c, d);
+    const RoundedStep x = round_part(way, difference(b.x, a.x));
+    const RoundedStep y = round_part(way, difference(b.y, a.y));
     return {{a.x + static_cast<double>(x.steps), a.y + static_cast<double>(y.steps)},
             x.is_exact && y.is_exact};
+}
+
+int compare_crossings(Key2 a, Key2 b, Key2 c, Key2 d, Key2 e, Key2 f) {
+    const Fraction one = way_to_line(a, b, c, d);
+    const Fraction other = way_to_line(a, b, e, f);
+    const double difference = one.value - other.value;
+    if (std::abs(difference) > 8 * internal::kUnit * (std::abs(one.value) + std::abs(other.value))) {
+        return sign(difference);
+    }
+    return compare_products(one.num, other.den, other.num, one.den);
 }
 
 SquarePass pass_square(Key2 a, Key2 b, Key2 c) {

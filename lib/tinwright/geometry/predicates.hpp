@@ -41,6 +41,10 @@ struct RoundedCrossing {
 };
 RoundedCrossing round_crossing(Key2 a, Key2 b, Key2 c, Key2 d);
 
+/// Sign of the way from a to where the line a b meets c d, less that to where it meets e f: +1 if it meets
+/// c d later. c d and e f each `do_cross` the line (their ends lie on different sides of it).
+int compare_crossings(Key2 a, Key2 b, Key2 c, Key2 d, Key2 e, Key2 f);
+
 /// How a segment passes the square of a lattice point: all that rounds to it, the half-open square around it
 /// whose sides are one step long.
 enum class SquarePass : std::uint8_t {

@@ -1,56 +1,21 @@
 #include "tinwright/surface/locator.hpp"
 
-#include <array>
-#include <cstdint>
-#include <vector>
-
 #include "tinwright/geometry/predicates.hpp"
-#include "tinwright/mesh/box_tree.hpp"
+#include "tinwright/surface/face_tree.hpp"
 
 namespace tinwright {
 
-namespace {
-
-std::vector<FaceId> terrain_faces(const TriangleMesh& mesh) {
-    std::vector<FaceId> faces;
-    faces.reserve(mesh.slot_count());
-    for (std::uint32_t f = 0; f < mesh.slot_count(); ++f) {
-        if (mesh.is_terrain({f})) {
-            faces.push_back({f});
-        }
-    }
-    return faces;
-}
-
-BoxTree make_tree(const Tin& tin, const std::vector<FaceId>& faces) {
-    std::vector<KeyBox> boxes;
-    boxes.reserve(faces.size());
-    for (const FaceId f : faces) {
-        const auto& v = tin.mesh.face(f).vertex;
-        boxes.push_back(KeyBox::of(std::array{tin.key(v[0]), tin.key(v[1]), tin.key(v[2])}));
-    }
-    return BoxTree(boxes);
-}
-
-}  // namespace
-
-/// Boxes are in keys of the TIN, which a place divided by the lattice's scale can be compared with exactly.
 struct SurfaceLocator::State {
-    explicit State(const Tin& of)
-        : tin(of), lattice(of), faces(terrain_faces(of.mesh)), tree(make_tree(of, faces)) {}
+    explicit State(const Tin& tin) : faces(tin) {}
 
     [[nodiscard]] bool holds(FaceId f, Key2 at) const {
-        const auto& v = tin.mesh.face(f).vertex;
-        const Key2 a = lattice.scaled(tin.key(v[0]));
-        const Key2 b = lattice.scaled(tin.key(v[1]));
-        const Key2 c = lattice.scaled(tin.key(v[2]));
+        const Key2 a = faces.corner(f, 0);
+        const Key2 b = faces.corner(f, 1);
+        const Key2 c = faces.corner(f, 2);
         return orient2d(a, b, at) >= 0 && orient2d(b, c, at) >= 0 && orient2d(c, a, at) >= 0;
     }
 
-    const Tin& tin;
-    QueryLattice lattice;
-    std::vector<FaceId> faces;
-    BoxTree tree;
+    FaceTree faces;
 };
 
 SurfaceLocator::SurfaceLocator(const Tin& tin) : state_(std::make_unique<State>(tin)) {}
@@ -60,12 +25,10 @@ std::optional<SurfacePlace> SurfaceLocator::find(Key2 at) const {
     if (!QueryLattice::is_near(at)) {
         return std::nullopt;
     }
-    const Key2 key{at.x / state_->lattice.scale(), at.y / state_->lattice.scale()};
     std::optional<FaceId> found;
-    state_->tree.visit_meeting(
-        {key, key}, [](const KeyBox&) { return false; },
-        [&](std::uint32_t item) {
-            const FaceId f = state_->faces[item];
+    state_->faces.visit_meeting(
+        {at, at}, [](const KeyBox&) { return false; },
+        [&](FaceId f) {
             if ((!found || f < *found) && state_->holds(f, at)) {
                 found = f;
             }
@@ -75,9 +38,9 @@ std::optional<SurfacePlace> SurfaceLocator::find(Key2 at) const {
 }
 
 std::optional<SurfacePlace> SurfaceLocator::find(Point2 position) const {
-    return find(state_->lattice.at(position));
+    return find(state_->faces.lattice.at(position));
 }
 
-const QueryLattice& SurfaceLocator::lattice() const { return state_->lattice; }
+const QueryLattice& SurfaceLocator::lattice() const { return state_->faces.lattice; }
 
 }  // namespace tinwright
