@@ -21,35 +21,10 @@ namespace {
 
 using Kind = HeldOutSet::Kind;
 
-std::vector<std::string> split(const std::string& text) {
-    std::vector<std::string> parts;
-    std::size_t start = 0;
-    while (start < text.size()) {
-        const std::size_t end = std::min(text.find(',', start), text.size());
-        parts.push_back(text.substr(start, end - start));
-        start = end + 1;
-    }
-    return parts;
-}
-
 bool is_chosen(const std::string& name, const std::vector<std::string>& beginnings) {
     return beginnings.empty() ||
            std::any_of(beginnings.begin(), beginnings.end(),
                        [&](const std::string& beginning) { return name.starts_with(beginning); });
-}
-
-/// Linear, which the others are compared with, and those asked for.
-std::vector<Contender> contenders_of(const std::string& text) {
-    if (text.empty()) {
-        return all_contenders();
-    }
-    std::vector<Contender> contenders{parse_contender("linear")};
-    for (const std::string& name : split(text)) {
-        if (name != "linear") {
-            contenders.push_back(parse_contender(name));
-        }
-    }
-    return contenders;
 }
 
 /// What the folds of a set say together.
@@ -177,7 +152,7 @@ class Verdicts {
 
 void measure(const Settings& settings) {
     const std::vector<Contender> contenders = contenders_of(settings.methods);
-    const std::vector<std::string> chosen = split(settings.sets);
+    const std::vector<std::string> chosen = split_list(settings.sets);
     std::printf("| set | samples | checks | linear: RMSE |");
     for (std::size_t c = 1; c < contenders.size(); ++c) {
         std::printf(" %s |", contenders[c].name.c_str());

@@ -1,5 +1,6 @@
 #include "benchmarks/contenders.hpp"
 
+#include <algorithm>
 #include <map>
 #include <memory>
 #include <optional>
@@ -63,12 +64,32 @@ Contender parse_contender(const std::string& text) {
     return contender;
 }
 
-std::vector<Contender> all_contenders() {
-    std::vector<Contender> all;
-    for (const auto& [name, method] : tinwright::kInterpolationMethods) {
-        all.push_back(parse_contender(std::string(name)));
+std::vector<std::string> split_list(const std::string& list) {
+    std::vector<std::string> parts;
+    std::size_t start = 0;
+    while (start < list.size()) {
+        const std::size_t end = std::min(list.find(',', start), list.size());
+        parts.push_back(list.substr(start, end - start));
+        start = end + 1;
     }
-    return all;
+    return parts;
+}
+
+std::vector<Contender> contenders_of(const std::string& list) {
+    std::vector<Contender> contenders;
+    if (list.empty()) {
+        for (const auto& [name, method] : tinwright::kInterpolationMethods) {
+            contenders.push_back(parse_contender(std::string(name)));
+        }
+        return contenders;
+    }
+    contenders.push_back(parse_contender("linear"));
+    for (const std::string& name : split_list(list)) {
+        if (name != "linear") {
+            contenders.push_back(parse_contender(name));
+        }
+    }
+    return contenders;
 }
 
 FoldErrors find_errors(const Fold& fold, const std::vector<Contender>& contenders) {

@@ -1,6 +1,7 @@
 #ifndef TINWRIGHT_TESTS_BENCHMARKS_CONTENDERS_HPP
 #define TINWRIGHT_TESTS_BENCHMARKS_CONTENDERS_HPP
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -23,8 +24,10 @@ struct Contender {
 /// std::runtime_error for what is none.
 Contender parse_contender(const std::string& text);
 
-/// All methods on the Delaunay TIN, linear first, and linear on the data-dependent TINs.
-std::vector<Contender> all_contenders();
+/// Those of a list with commas, behind linear, which comes first. Without a list: all methods on the Delaunay
+/// TIN, and linear on the data-dependent TINs.
+std::vector<Contender> contenders_of(const std::string& list);
+std::vector<std::string> split_list(const std::string& list);
 
 /// Errors of the contenders at the checks of a fold that are on the terrain: `errors[i]` holds one number a
 /// contender for the check `inside[i]`.

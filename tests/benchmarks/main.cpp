@@ -42,11 +42,12 @@ constexpr std::array kBenchmarks{Benchmark{"delaunay", run_delaunay},
                                  Benchmark{"noding", run_noding},
                                  Benchmark{"constrained", run_constrained},
                                  Benchmark{"conforming", run_conforming},
-                                 Benchmark{"accuracy", run_accuracy}};
+                                 Benchmark{"accuracy", run_accuracy},
+                                 Benchmark{"convergence", run_convergence}};
 
 constexpr const char* kUsage =
     "usage: tinwright_benchmarks delaunay|raster|job|read|criteria|criteria_growth|criteria_worst|\n"
-    "                            noding|constrained|conforming|accuracy\n"
+    "                            noding|constrained|conforming|accuracy|convergence\n"
     "           [--rounds K] [--scale FRACTION] [--tinwright COMMAND] [--images FOLDER]\n"
     "           [--data FOLDER] [--sets NAME,...] [--methods METHOD[/GRADIENTS][@CRITERION],...]\n"
     "Prints a table of docs/benchmarks.md or docs/interpolation.md. Medians of K interleaved runs (default "
