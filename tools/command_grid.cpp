@@ -1,5 +1,8 @@
 #include "command_grid.hpp"
 
+#include <chrono>
+#include <memory>
+
 #include "tinwright/geometry/decimal.hpp"
 
 #include "conflict_layer.hpp"
@@ -14,7 +17,7 @@ namespace {
 
 /// What the raster says about itself: of a TIN file, what the file said of its faces.
 io::TinMetadata raster_metadata(const Surface& surface, const CommandGrid& command) {
-    const std::string method = "--method " + command.raster.method;
+    const std::string method = command.interpolation.canonical() + command.products.canonical();
     io::TinMetadata metadata{{"TINWRIGHT_VERSION", TINWRIGHT_VERSION}, {"TINWRIGHT_COMMAND", "grid"}};
     const io::TinMetadata criterion = criterion_metadata(surface.criterion);
     metadata.insert(metadata.end(), criterion.begin(), criterion.end());
@@ -41,12 +44,15 @@ void CommandGrid::setup(const std::vector<std::string>& arguments) {
         "grid", "Turns elevation samples, or an existing TIN, into a raster.", "SOURCE... -o FILE [options]",
         {"tinwright grid survey.csv -o dem.tif",
          "tinwright grid points.gpkg -o dem.tif --resolution 0.5 --co COMPRESS=ZSTD",
-         "tinwright grid tin.gpkg -o dem.tif --like other.tif --preview dem.png"});
+         "tinwright grid tin.gpkg -o dem.tif --like other.tif --preview dem.png",
+         "tinwright grid tin.gpkg -o slope.tif --method smooth --product slope"});
     sources.add_to(*parser);
     sources.add_skip_bad_to(*parser);
     output.add_to(*parser, "raster to write", "output driver (default: from the extension)");
     output.add_creation_options_to(*parser);
     raster.add_geometry_to(*parser);
+    interpolation.add_to(*parser);
+    products.add_to(*parser);
     raster.add_values_to(*parser);
     lines.add_sources_to(*parser);
     triangulation.add_to(*parser, "trimmed");
@@ -61,10 +67,17 @@ void CommandGrid::setup(const std::vector<std::string>& arguments) {
     lines.finish(sources.open_options);
     output.finish(true);
     raster.finish();
+    interpolation.finish();
+    products.finish();
+    if (!raster.preview.empty() && products.options.products.front() != Product::Elevation) {
+        throw UsageError("--preview shades elevations: let --product begin with elevation");
+    }
     triangulation.finish(DomainRule::Kind::Trimmed);
     talk.finish(output.is_stdout());
-    refuse_same_file("--preview", raster.preview, "-o", output.path);
-    refuse_same_file("--conflicts", lines.conflicts, "-o", output.path);
+    for (const std::string& target : products.targets(output.path)) {
+        refuse_same_file("--preview", raster.preview, "-o", target);
+        refuse_same_file("--conflicts", lines.conflicts, "-o", target);
+    }
     refuse_same_file("--conflicts", lines.conflicts, "--preview", raster.preview);
 }
 
@@ -77,6 +90,7 @@ io::WriteGridOptions CommandGrid::write_options() const {
     options.overwrite = output.overwrite;
     options.preview = raster.preview;
     options.threads = triangulation.threads;
+    options.gridding = products.options;
     return options;
 }
 
@@ -93,16 +107,50 @@ GridGeometry CommandGrid::grid_for(const Surface& surface, const std::optional<G
     return *like;
 }
 
+std::vector<std::string> CommandGrid::gradient_warnings(const Surface& surface) const {
+    if (!products.has_gradients() || !products.z_factor_text.empty()) {
+        return {};
+    }
+    const std::string unit = surface.crs.unit();
+    if (unit.empty() || surface.z_unit.empty() || unit == surface.z_unit) {
+        return {};
+    }
+    return {"slopes are z units per CRS unit: z is in " + surface.z_unit + ", the CRS in " + unit +
+            "; --z-factor converts"};
+}
+
+io::WrittenGrid CommandGrid::write(const Surface& surface, const GridGeometry& grid,
+                                   std::span<const std::string> targets,
+                                   io::WriteGridOptions& options) const {
+    std::unique_ptr<Interpolator> reading;
+    double seconds = 0;
+    if (!interpolation.is_linear()) {
+        const auto start = std::chrono::steady_clock::now();
+        reading = interpolation.make(surface, triangulation.threads);
+        seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        options.surface = reading.get();
+        options.is_surface_bounded = is_bounded(interpolation.options.method);
+    }
+    io::WrittenGrid written = targets.size() == 1
+                                  ? io::write_grid(surface.tin, surface.crs, grid, targets[0], options)
+                                  : io::write_grids(surface.tin, surface.crs, grid, targets, options);
+    written.interpolate_seconds += seconds;
+    return written;
+}
+
 Outcome CommandGrid::run() {
     Console console("grid", talk);
     std::vector<io::Source> read = lines.plain_sources();
     read.insert(read.end(), sources.sources.begin(), sources.sources.end());
-    for (const std::string& file : {output.path, raster.preview, lines.conflicts}) {
-        refuse_to_overwrite_sources(file, read);
-    }
+    const std::vector<std::string> targets = products.targets(output.path);
     io::WriteGridOptions options = write_options();
-    check_output_place(output.path, output.overwrite);
-    io::check_grid_target(output.path, options);
+    for (const std::string& target : targets) {
+        refuse_to_overwrite_sources(target, read);
+        check_output_place(target, output.overwrite);
+        io::check_grid_target(target, options);
+    }
+    refuse_to_overwrite_sources(raster.preview, read);
+    refuse_to_overwrite_sources(lines.conflicts, read);
     check_output_place(raster.preview, output.overwrite);
     if (!lines.conflicts.empty()) {
         check_output_place(lines.conflicts, output.overwrite);
@@ -128,9 +176,12 @@ Outcome CommandGrid::run() {
         console.warn("the source carries no CRS, so the raster has none, though --like " +
                      io::quoted(raster.like) + " is in " + like_crs.name() + "; --source-crs assigns one");
     }
+    for (const std::string& warning : gradient_warnings(surface)) {
+        console.warn(warning);
+    }
     options.metadata = raster_metadata(surface, *this);
     options.progress = console.progress().stage(0.6, 1);
-    const io::WrittenGrid written = io::write_grid(surface.tin, surface.crs, grid, output.path, options);
+    const io::WrittenGrid written = write(surface, grid, targets, options);
     if (surface.conflicts) {
         surface.conflicts->commit();
     }
@@ -146,8 +197,9 @@ Outcome CommandGrid::run() {
     report.command = "grid";
     report.domain = is_tin ? "as in the TIN" : triangulation.domain_name();
     report.duplicate_policy = triangulation.policy_name();
-    report.raster = RasterReport{grid, written, !like && !raster.request.resolution && !raster.request.size};
-    report.outputs = {output.path};
+    report.raster = RasterReport{grid, written, !like && !raster.request.resolution && !raster.request.size,
+                                 interpolation.method_text};
+    report.outputs = targets;
     if (!raster.preview.empty()) {
         report.outputs.push_back(raster.preview);
     }

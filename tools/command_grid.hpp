@@ -1,12 +1,18 @@
 #ifndef TINWRIGHT_TOOLS_COMMAND_GRID_HPP
 #define TINWRIGHT_TOOLS_COMMAND_GRID_HPP
 
+#include <span>
+#include <string>
+#include <vector>
+
 #include "tinwright/io/write_grid.hpp"
 
 #include "command.hpp"
 #include "options_crs.hpp"
+#include "options_interpolation.hpp"
 #include "options_lines.hpp"
 #include "options_output.hpp"
+#include "options_products.hpp"
 #include "options_raster.hpp"
 #include "options_sources.hpp"
 #include "options_talk.hpp"
@@ -28,11 +34,18 @@ class CommandGrid : public Command {
     TriangulationOptions triangulation;
     LineOptions lines;
     RasterOptions raster;
+    InterpolationChoice interpolation;
+    ProductOptions products;
     OutputOptions output;
     TalkOptions talk;
 
   private:
     [[nodiscard]] io::WriteGridOptions write_options() const;
+    /// What the user has to be warned of when slopes are asked for.
+    [[nodiscard]] std::vector<std::string> gradient_warnings(const Surface& surface) const;
+    /// Prepares the surface and writes the raster; `options` gets the surface.
+    io::WrittenGrid write(const Surface& surface, const GridGeometry& grid,
+                          std::span<const std::string> targets, io::WriteGridOptions& options) const;
     [[nodiscard]] GridGeometry grid_for(const Surface& surface, const std::optional<GridGeometry>& like,
                                         const io::Crs& like_crs) const;
 };

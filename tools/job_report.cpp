@@ -51,7 +51,9 @@ JsonValue raster_json(const RasterReport& raster) {
         .set("cells_with_value", raster.written.cells_with_value)
         .set("nodata",
              std::isnan(raster.written.nodata) ? JsonValue("nan") : JsonValue(raster.written.nodata))
-        .set("type", raster.written.data_type);
+        .set("type", raster.written.data_type)
+        .set("method", raster.method)
+        .set("products", JsonValue::array_of(raster.written.bands));
 }
 
 JsonValue timings_json(const JobReport& report, const Surface& surface) {
@@ -146,6 +148,14 @@ std::string raster_line(const RasterReport& raster) {
     return std::to_string(grid.columns) + " x " + std::to_string(grid.rows) + " cells of " + size +
            (raster.is_resolution_chosen ? " (chosen from the sample spacing)" : "") + ", " + fixed(share, 1) +
            " % with a value, nodata " + decimal_text(raster.written.nodata);
+}
+
+std::string method_line(const RasterReport& raster) {
+    std::string line = raster.method + ": ";
+    for (const std::string& band : raster.written.bands) {
+        line += (&band == raster.written.bands.data() ? "" : ", ") + band;
+    }
+    return line;
 }
 
 /// Step of the coordinates that came in; made points may have a finer one.
@@ -280,6 +290,10 @@ std::string report_text(const JobReport& report, const Surface& surface, const R
     }
     if (report.raster) {
         add("raster", raster_line(*report.raster));
+        if (report.raster->method != "linear" ||
+            report.raster->written.bands != std::vector<std::string>{"elevation"}) {
+            add("method", method_line(*report.raster));
+        }
     }
     for (std::size_t i = 0; i < report.outputs.size(); ++i) {
         const std::string type = report.raster ? ", " + report.raster->written.data_type : std::string();

@@ -18,6 +18,7 @@ struct RasterReport {
     GridGeometry grid;
     io::WrittenGrid written;
     bool is_resolution_chosen = false;  ///< by us, not by the user
+    std::string method = "linear";
 };
 
 /// What a finished command has to tell, once for people and once as JSON (docs/json.md).

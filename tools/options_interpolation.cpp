@@ -66,16 +66,12 @@ bool is_smooth(InterpolationMethod method) {
 }  // namespace
 
 void InterpolationChoice::add_to(CLI::App& parser) {
-    add_value(
-        parser, "--method", method_text, "NAME",
-        "linear (default), nearest, natural-neighbor[:laplace|:c1], clough-tocher[:limit], smooth[:c1]");
-    add_value(parser, "--gradients", gradients_text, "NAME",
-              "of natural-neighbor:c1 and clough-tocher: octant (default), ring or sibson");
-    add_value(parser, "--smooth-kernels", kernels_text, "LIST",
-              "of smooth: exponents to choose from (1.5,1x4*1.04,2.5)");
-    add_value(parser, "--smooth-neighbors", neighbors_text, "N", "of smooth: neighbours of a vertex (24)");
-    add_value(parser, "--smooth-guard", guard_text, "SHARE|none",
-              "of smooth: how far to leave the neighbours' range (0.25)");
+    add_value(parser, "--method", method_text, "NAME", "linear, natural-neighbor, ..., smooth");
+    add_value(parser, "--gradients", gradients_text, "NAME", "octant (default), ring or sibson");
+    // For those who know what they do: in the manual page, not on the screen of --help.
+    add_value(parser, "--smooth-kernels", kernels_text, "LIST", "exponents to choose from")->group("");
+    add_value(parser, "--smooth-neighbors", neighbors_text, "N", "neighbours of a vertex")->group("");
+    add_value(parser, "--smooth-guard", guard_text, "SHARE|none", "how far to leave their range")->group("");
 }
 
 void InterpolationChoice::finish() {
@@ -120,8 +116,10 @@ std::string InterpolationChoice::canonical() const {
     return text;
 }
 
-std::unique_ptr<Interpolator> InterpolationChoice::make(const Surface& surface) const {
-    return make_interpolator(surface.tin, SharpEdges(surface.tin, surface.is_line_sharp), options);
+std::unique_ptr<Interpolator> InterpolationChoice::make(const Surface& surface, int threads) const {
+    InterpolationOptions threaded = options;
+    threaded.threads = threads;
+    return make_interpolator(surface.tin, SharpEdges(surface.tin, surface.is_line_sharp), threaded);
 }
 
 }  // namespace tinwright::tools

@@ -31,8 +31,8 @@ struct InterpolationChoice {
     [[nodiscard]] bool is_linear() const { return options.method == InterpolationMethod::Linear; }
     /// The options that say what comes out, as one would type them.
     [[nodiscard]] std::string canonical() const;
-    /// The surface of a TIN read or made. Parallel inside the caller's task arena.
-    [[nodiscard]] std::unique_ptr<Interpolator> make(const Surface& surface) const;
+    /// The surface of a TIN read or made. `threads`: 0 for all processors.
+    [[nodiscard]] std::unique_ptr<Interpolator> make(const Surface& surface, int threads) const;
 };
 
 }  // namespace tinwright::tools

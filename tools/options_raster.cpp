@@ -1,9 +1,5 @@
 #include "options_raster.hpp"
 
-#include <array>
-#include <string_view>
-#include <utility>
-
 #include "tinwright/geometry/decimal.hpp"
 
 #include "option_values.hpp"
@@ -11,8 +7,6 @@
 namespace tinwright::tools {
 
 namespace {
-
-constexpr auto kMethods = std::to_array<std::pair<std::string_view, int>>({{"linear", 0}});
 
 Box parse_extent(const std::vector<std::string>& texts) {
     Box box;
@@ -49,14 +43,12 @@ void RasterOptions::add_geometry_to(CLI::App& parser) {
 }
 
 void RasterOptions::add_values_to(CLI::App& parser) {
-    add_value(parser, "--method", method, "NAME", "interpolation: linear");
     add_value(parser, "--ot", data_type, "TYPE", "Float32 (default), Float64, Int16, UInt16, ...");
     add_value(parser, "--nodata", nodata_text, "VALUE", "value outside the domain (default -9999)");
     add_value(parser, "--preview", preview, "FILE.png", "write a shaded picture too");
 }
 
 void RasterOptions::finish() {
-    choice_value("--method", method, kMethods);
     const bool has_geometry = !extent_texts.empty() || !resolution_text.empty() || !size_texts.empty() || tap;
     if (!like.empty() && has_geometry) {
         throw UsageError(

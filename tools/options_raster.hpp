@@ -18,7 +18,6 @@ struct RasterOptions {
     std::vector<std::string> size_texts;
     std::string like;
     bool tap = false;
-    std::string method = "linear";
     std::string nodata_text;
     std::string data_type;
     std::string preview;

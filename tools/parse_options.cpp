@@ -26,7 +26,8 @@ class HelpFormatter : public CLI::Formatter {
         std::ostringstream text;
         text << "Usage: " << app->get_name() << " " << usage_ << "\n" << app->get_description() << "\n\n";
         for (const CLI::Option* option : app->get_options()) {
-            if (option->nonpositional()) {
+            // Options without a group are told of in the manual page only.
+            if (option->nonpositional() && !option->get_group().empty()) {
                 text << option_line(*option);
             }
         }

@@ -48,7 +48,7 @@ TEST_SUITE("tools/help") {
             CAPTURE(entry.name);
             const std::vector<std::string> lines = lines_of(help_of(entry));
             CHECK(lines.size() >= 10);
-            CHECK(lines.size() <= 52);
+            CHECK(lines.size() <= 56);
             CHECK(
                 std::all_of(lines.begin(), lines.end(), [](const std::string& l) { return l.size() <= 80; }));
             CHECK(lines.back().starts_with("  tinwright " + std::string(entry.name) + " "));

@@ -239,9 +239,51 @@ TEST_SUITE("tools/setup") {
         CHECK(grid({"--tap"}) == "--tap needs --resolution: edges are put at multiples of it");
         CHECK(grid({"--like", "c.tif", "-tr", "1"}) ==
               "--like brings its own geometry: --extent, --resolution, --size and --tap cannot be added");
-        CHECK(grid({"--method", "nearest"}) == "--method takes linear, not \"nearest\"");
         CHECK(grid({"--preview", "b.tif"}) == "--preview and -o name the same file \"b.tif\"");
         CHECK(grid({"--nodata", "nan"}) == "fine");
+    }
+
+    TEST_CASE("methods and products are told by name, and their options belong to them") {
+        const auto grid = [](std::vector<std::string> more) {
+            more.insert(more.begin(), {"a.csv", "-o", "b.tif"});
+            return complaint<CommandGrid>(more);
+        };
+        CHECK(grid({"--method", "spline"}) ==
+              "--method takes linear, nearest, natural-neighbor, natural-neighbor:laplace, "
+              "natural-neighbor:c1, clough-tocher, clough-tocher:limit, smooth or smooth:c1, not \"spline\"");
+        CHECK(grid({"--gradients", "ring"}) ==
+              "--gradients is for the methods natural-neighbor:c1 and clough-tocher, not for linear");
+        CHECK(grid({"--method", "clough-tocher", "--gradients", "ring"}) == "fine");
+        CHECK(grid({"--smooth-guard", "none"}) ==
+              "--smooth-guard is for the methods smooth and smooth:c1, not for linear");
+        CHECK(grid({"--method", "smooth", "--smooth-kernels", "1.5,,1"}) ==
+              "--smooth-kernels takes kernels EXPONENT[xSTRETCH[*HANDICAP]] with commas between, as "
+              "1.5,1x4*1.04,2.5, not \"\"");
+        CHECK(grid({"--method", "smooth", "--smooth-kernels", "1.5,1x4*1.04", "--smooth-guard", "none"}) ==
+              "fine");
+        CHECK(grid({"--product", "slope,height"}) ==
+              "--product takes elevation, slope, aspect, gradient, hillshade, nearest-distance or face-id, "
+              "with commas between several, not \"height\"");
+        CHECK(grid({"--product", "slope,aspect", "--product", "slope"}) == "--product names slope twice");
+        CHECK(grid({"--slope-unit", "percent"}) == "--slope-unit is for --product slope");
+        CHECK(grid({"--product", "slope", "--slope-unit", "rise"}) ==
+              "--slope-unit takes degree, percent or ratio, not \"rise\"");
+        CHECK(grid({"--z-factor", "2"}) ==
+              "--z-factor is for --product slope, gradient, aspect and hillshade");
+        CHECK(grid({"--product", "slope", "--azimuth", "0"}) == "--azimuth is for --product hillshade");
+        CHECK(grid({"--product", "hillshade", "--altitude", "91"}) ==
+              "--altitude takes degrees above 0 and up to 90, not 91");
+        CHECK(grid({"--product", "slope", "--preview", "c.png"}) ==
+              "--preview shades elevations: let --product begin with elevation");
+    }
+
+    TEST_CASE("a name with {product} stands for a file each") {
+        CommandGrid command;
+        command.setup({"a.csv", "-o", "out_{product}.tif", "--product", "elevation,gradient"});
+        CHECK(command.products.targets(command.output.path) ==
+              std::vector<std::string>{"out_elevation.tif", "out_gradient_x.tif", "out_gradient_y.tif"});
+        CHECK(command.products.canonical() == " --product elevation,gradient");
+        CHECK(command.products.targets("one.tif") == std::vector<std::string>{"one.tif"});
     }
 
     TEST_CASE("standard output has one user") {

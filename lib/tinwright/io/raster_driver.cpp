@@ -79,20 +79,36 @@ GDALDriver* find_by_name(const std::string& name) {
     return driver;
 }
 
-GDALDataType find_type(GDALDriver* driver, const std::string& asked) {
+/// Types by how well they suit the products.
+std::vector<const char*> suitable_types(const std::vector<Product>& products) {
+    if (products == std::vector{Product::Hillshade}) {
+        return {"Byte", "UInt16", "Int16", "Float32", "Float64"};
+    }
+    if (products == std::vector{Product::FaceNumber}) {
+        return {"Int32", "UInt32", "Float64", "Float32"};
+    }
+    const bool has_numbers =
+        std::find(products.begin(), products.end(), Product::FaceNumber) != products.end();
+    if (has_numbers) {
+        return {"Float64", "Float32", "Int32"};
+    }
+    return {"Float32", "Float64", "Int32", "Int16", "UInt16", "UInt32", "Byte"};
+}
+
+GDALDataType find_type(GDALDriver* driver, const std::string& asked, const std::vector<Product>& products) {
     const std::string list = metadata_of(driver, GDAL_DMD_CREATIONDATATYPES);
     const std::vector<std::string> possible = words(list);
     const auto is_possible = [&](const std::string& name) {
         return possible.empty() || std::find(possible.begin(), possible.end(), name) != possible.end();
     };
     if (asked.empty()) {
-        for (const char* const name : {"Float32", "Float64", "Int32", "Int16", "UInt16", "UInt32", "Byte"}) {
+        for (const char* const name : suitable_types(products)) {
             if (is_possible(name)) {
                 return GDALGetDataTypeByName(name);
             }
         }
         throw UsageError("the driver " + quoted(driver->GetDescription()) +
-                         " writes no type that elevations fit in; use another, such as GTiff");
+                         " writes no type that the values fit in; use another, such as GTiff");
     }
     const GDALDataType type = GDALGetDataTypeByName(asked.c_str());
     if (type == GDT_Unknown || GDALDataTypeIsComplex(type) != 0) {
@@ -164,7 +180,7 @@ RasterDriver find_raster_driver(const std::string& target, const WriteGridOption
     RasterDriver found;
     found.driver = options.driver.empty() ? find_by_extension(target) : find_by_name(options.driver);
     found.can_create = has_capability(found.driver, GDAL_DCAP_CREATE);
-    found.type = find_type(found.driver, options.data_type);
+    found.type = find_type(found.driver, options.data_type, options.gridding.products);
     check_creation_options(found.driver, options.creation_options);
     if (options.nodata) {
         check_nodata(found.type, *options.nodata);

@@ -38,30 +38,91 @@ std::pair<double, double> find_terrain_range(const Tin& tin) {
     return {lowest, highest};
 }
 
+/// Float32 tells whole numbers apart up to here.
+constexpr double kExactInFloat = 16777216;
+
+/// More than any slope or gradient that means something; Float32 holds it.
+constexpr double kSteepest = 1e30;
+
+double highest_slope(SlopeUnit unit) { return unit == SlopeUnit::Degree ? 90 : kSteepest; }
+
+ValueRange elevation_range(const Tin& tin, const WriteGridOptions& options, bool is_quick) {
+    auto [lowest, highest] = is_quick ? find_vertex_range(tin) : find_terrain_range(tin);
+    const bool is_bounded = options.surface == nullptr || options.is_surface_bounded;
+    const double beyond = is_bounded ? 0 : highest - lowest;
+    return {lowest - beyond, highest + beyond, is_bounded};
+}
+
+ValueRange range_of(Product product, const Tin& tin, const WriteGridOptions& options, bool is_quick) {
+    switch (product) {
+        case Product::Elevation:
+            return elevation_range(tin, options, is_quick);
+        case Product::Slope:
+            return {0, highest_slope(options.gridding.slope_unit)};
+        case Product::Aspect:
+            return {0, 360};
+        case Product::GradientX:
+        case Product::GradientY:
+            return {-kSteepest, kSteepest, false};
+        case Product::Hillshade:
+            return {1, 255};
+        case Product::NearestDistance: {
+            const Box bounds = tin.bounds();
+            return {0, std::hypot(bounds.x_max - bounds.x_min, bounds.y_max - bounds.y_min)};
+        }
+        case Product::FaceNumber:
+            break;
+    }
+    return {0, static_cast<double>(std::max<std::size_t>(tin.mesh.count_terrain(), 1) - 1), true, true};
+}
+
 }  // namespace
 
-RasterValues::RasterValues(const Tin& tin, const RasterDriver& driver, std::optional<double> asked)
+ValueRange find_value_range(const Tin& tin, const WriteGridOptions& options, bool is_quick) {
+    const std::vector<Product>& products = options.gridding.products;
+    ValueRange all = range_of(products.front(), tin, options, is_quick);
+    for (const Product product : products) {
+        const ValueRange range = range_of(product, tin, options, is_quick);
+        all.lowest = std::min(all.lowest, range.lowest);
+        all.highest = std::max(all.highest, range.highest);
+        all.is_certain = all.is_certain && range.is_certain;
+        all.is_count = all.is_count || range.is_count;
+        if (product != Product::Elevation) {
+            all.name = "values";
+        }
+    }
+    return all;
+}
+
+RasterValues::RasterValues(const RasterDriver& driver, std::optional<double> asked,
+                           const std::function<ValueRange(bool)>& find_range)
     : type_(driver.type), is_integer_(driver.is_integer()), range_(integer_range(driver.type)) {
     // The margin is wider than what Float32 rounds away.
-    const auto is_harmless = [&](std::pair<double, double> range) {
-        const double largest = std::max(-range.first, range.second);
+    const auto is_harmless = [&](const ValueRange& range) {
+        const double largest = std::max(-range.lowest, range.highest);
         const double nodata = asked.value_or(nodata_);
-        return !is_integer_ && largest <= static_cast<double>(std::numeric_limits<float>::max()) &&
-               !(nodata >= range.first - 1e-6 * largest && nodata <= range.second + 1e-6 * largest);
+        return !is_integer_ && !range.is_count &&
+               largest <= static_cast<double>(std::numeric_limits<float>::max()) &&
+               !(nodata >= range.lowest - 1e-6 * largest && nodata <= range.highest + 1e-6 * largest);
     };
-    std::pair<double, double> range = find_vertex_range(tin);
+    ValueRange range = find_range(true);
     if (!is_harmless(range)) {
-        range = find_terrain_range(tin);
+        range = find_range(false);
     }
-    double lowest = range.first;
-    double highest = range.second;
+    name_ = range.name;
+    double lowest = range.lowest;
+    double highest = range.highest;
+    const auto describe = [&] {
+        return name_ + " from " + decimal_text(lowest) + " to " + decimal_text(highest);
+    };
     if (is_integer_) {
         lowest = std::round(lowest);
         highest = std::round(highest);
     } else if (type_ == GDT_Float32) {
-        if (std::max(-lowest, highest) > static_cast<double>(std::numeric_limits<float>::max())) {
-            throw InputError("elevations from " + decimal_text(lowest) + " to " + decimal_text(highest) +
-                             " do not fit Float32; use --ot Float64");
+        const double limit =
+            range.is_count ? kExactInFloat : static_cast<double>(std::numeric_limits<float>::max());
+        if (std::max(-lowest, highest) > limit) {
+            throw InputError(describe() + " do not fit Float32; use --ot Float64");
         }
         lowest = static_cast<double>(static_cast<float>(lowest));
         highest = static_cast<double>(static_cast<float>(highest));
@@ -76,8 +137,7 @@ RasterValues::RasterValues(const Tin& tin, const RasterDriver& driver, std::opti
                          [&](double value) { return value >= range_.lowest && is_outside(value); });
         if (found == std::end(candidates)) {
             throw InputError(
-                "elevations from " + decimal_text(lowest) + " to " + decimal_text(highest) +
-                " leave no value of " + driver.type_name() +
+                describe() + " leave no value of " + driver.type_name() +
                 " for nodata; use a wider type with --ot, or --nodata with a value that does not occur");
         }
         nodata_ = *found;
@@ -85,7 +145,7 @@ RasterValues::RasterValues(const Tin& tin, const RasterDriver& driver, std::opti
     if (type_ == GDT_Float32) {
         nodata_ = static_cast<double>(static_cast<float>(nodata_));
     }
-    must_check_ = is_integer_ || !is_outside(nodata_);
+    must_check_ = is_integer_ || !range.is_certain || !is_outside(nodata_);
 }
 
 double RasterValues::filler() const {
@@ -98,14 +158,14 @@ void RasterValues::refuse(double value, std::int64_t cell, const GridGeometry& g
     const std::int64_t row = first_row + cell / grid.columns;
     const Point2 at = grid.centre(column, row);
     const std::string where = "the cell at column " + std::to_string(column) + ", row " +
-                              std::to_string(row) + " " + location_text(at);
+                              std::to_string(row) + " " + location_text(at) +
+                              (name_ == "elevations" ? " has the elevation " : " has the value ");
     if (is_integer_ && !(value >= range_.lowest && value <= range_.highest)) {
-        throw InputError(where + " has the elevation " + decimal_text(value) + ", which does not fit " +
-                         GDALGetDataTypeName(type_) + " (" + decimal_text(range_.lowest) + " to " +
-                         decimal_text(range_.highest) + "); use --ot " +
-                         (std::abs(value) < 2147483647.0 ? "Int32 or Float32" : "Float64"));
+        throw InputError(where + decimal_text(value) + ", which does not fit " + GDALGetDataTypeName(type_) +
+                         " (" + decimal_text(range_.lowest) + " to " + decimal_text(range_.highest) +
+                         "); use --ot " + (std::abs(value) < 2147483647.0 ? "Int32 or Float32" : "Float64"));
     }
-    throw InputError(where + " has the elevation " + decimal_text(value) +
+    throw InputError(where + decimal_text(value) +
                      ", which stands for nodata; choose another value with --nodata");
 }
 

@@ -2,8 +2,10 @@
 #define TINWRIGHT_IO_RASTER_VALUES_HPP
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
+#include <string>
 
 #include "tinwright/io/raster_driver.hpp"
 #include "tinwright/mesh/tin.hpp"
@@ -11,13 +13,27 @@
 
 namespace tinwright::io {
 
+/// What the products of a raster can come to.
+struct ValueRange {
+    double lowest = 0;
+    double highest = 0;
+    bool is_certain = true;           ///< no cell is beyond
+    bool is_count = false;            ///< numbers that must not be rounded
+    std::string name = "elevations";  ///< for messages
+};
+
+/// The range of what a surface is asked for. `is_quick`: may be wider than it need be. O(n).
+ValueRange find_value_range(const Tin& tin, const WriteGridOptions& options, bool is_quick);
+
 /// What a raster's cells may hold, and the value that stands for none.
 class RasterValues {
   public:
     /// Chooses nodata where `asked` is empty: -9999, or for integer types the first of -9999, the type's
-    /// highest and lowest value that lies outside the elevations. Throws InputError when there is none, or
-    /// when elevations are beyond Float32's range.
-    RasterValues(const Tin& tin, const RasterDriver& driver, std::optional<double> asked);
+    /// highest and lowest value that lies outside the range. Throws InputError when there is none, or when
+    /// the range is beyond Float32's. `find_range(is_quick)`: the range, asked for again where a quick one
+    /// does not settle things.
+    RasterValues(const RasterDriver& driver, std::optional<double> asked,
+                 const std::function<ValueRange(bool)>& find_range);
 
     [[nodiscard]] double nodata() const { return nodata_; }
     /// Whether a cell with a value could hold nodata or a number beyond the type, so that `check` is needed.
@@ -35,6 +51,7 @@ class RasterValues {
                              std::int64_t first_row) const;
 
     GDALDataType type_;
+    std::string name_;
     bool is_integer_;
     IntegerRange range_;
     double nodata_ = -9999;

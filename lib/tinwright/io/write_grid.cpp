@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <chrono>
 #include <cmath>
 #include <exception>
@@ -23,7 +24,6 @@
 #include "tinwright/io/preview.hpp"
 #include "tinwright/io/raster_driver.hpp"
 #include "tinwright/io/raster_values.hpp"
-#include "tinwright/surface/scan_conversion.hpp"
 
 namespace tinwright::io {
 
@@ -45,6 +45,15 @@ class Stopwatch {
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+std::string product_name(Product product) {
+    for (const auto& [name, candidate] : kProducts) {
+        if (candidate == product) {
+            return std::string(name);
+        }
+    }
+    return {};
+}
+
 /// Deletes a file at the end, however that comes.
 class ScratchFile {
   public:
@@ -64,10 +73,15 @@ bool has_option(const std::vector<std::string>& options, const std::string& name
     });
 }
 
-CPLStringList creation_options(const RasterDriver& driver, const std::vector<std::string>& asked) {
+CPLStringList creation_options(const RasterDriver& driver, const std::vector<std::string>& asked,
+                               bool is_multiband) {
     CPLStringList list;
     for (const std::string& option : asked) {
         list.AddString(option.c_str());
+    }
+    // Products are computed row by row, all at a time; apart, each is read as quickly as if it were alone.
+    if (is_multiband && driver.name() == "GTiff" && !has_option(asked, "INTERLEAVE")) {
+        list.SetNameValue("INTERLEAVE", "BAND");
     }
     // Compressed files grow unforeseen: past 2 GB of values they get 64-bit offsets.
     if ((driver.name() == "GTiff" || driver.name() == "COG") && !has_option(asked, "BIGTIFF")) {
@@ -87,8 +101,15 @@ class GridWriter {
           target_(target),
           options_(options),
           driver_(find_raster_driver(target, options)),
-          values_(tin, driver_, options.nodata),
-          report_{driver_.name(), driver_.type_name(), values_.nodata(), 0, 0, 0, {}} {}
+          values_(driver_, options.nodata,
+                  [&](bool is_quick) { return find_value_range(tin, options, is_quick); }) {
+        report_.driver = driver_.name();
+        report_.data_type = driver_.type_name();
+        report_.nodata = values_.nodata();
+        for (const Product product : options.gridding.products) {
+            report_.bands.push_back(product_name(product));
+        }
+    }
 
     /// Writes everything to `path`.
     WrittenGrid write(const std::string& path);
@@ -97,13 +118,15 @@ class GridWriter {
     [[noreturn]] void fail() const {
         throw IoError("cannot write " + quoted(target_) + " as " + driver_.name() + messages_.suffix());
     }
+    [[nodiscard]] int band_count() const { return static_cast<int>(options_.gridding.products.size()); }
     [[nodiscard]] double bytes() const {
         return static_cast<double>(grid_.columns) * static_cast<double>(grid_.rows) *
-               GDALGetDataTypeSizeBytes(driver_.type);
+               GDALGetDataTypeSizeBytes(driver_.type) * band_count();
     }
     [[nodiscard]] GDALDatasetUniquePtr create(GDALDriver* driver, const std::string& path,
                                               char** options) const;
     void describe(GDALDataset& dataset) const;
+    [[nodiscard]] bool declare_nodata(GDALRasterBand& band) const;
     void close(GDALDatasetUniquePtr dataset) const;
     void copy(const std::string& path);
     void copy_from(GDALDataset& source, const std::string& path);
@@ -129,7 +152,8 @@ class GridWriter {
 
 GDALDatasetUniquePtr GridWriter::create(GDALDriver* driver, const std::string& path, char** options) const {
     GDALDatasetUniquePtr dataset(driver->Create(path.c_str(), static_cast<int>(grid_.columns),
-                                                static_cast<int>(grid_.rows), 1, driver_.type, options));
+                                                static_cast<int>(grid_.rows), band_count(), driver_.type,
+                                                options));
     if (dataset == nullptr) {
         fail();
     }
@@ -146,18 +170,27 @@ void GridWriter::describe(GDALDataset& dataset) const {
     for (const auto& [key, value] : options_.metadata) {
         dataset.SetMetadataItem(key.c_str(), value.c_str());
     }
-    GDALRasterBand& band = *dataset.GetRasterBand(1);
-    CPLErr declared = CE_None;
-    if (driver_.type == GDT_Int64) {
-        declared = band.SetNoDataValueAsInt64(static_cast<std::int64_t>(values_.nodata()));
-    } else if (driver_.type == GDT_UInt64) {
-        declared = band.SetNoDataValueAsUInt64(static_cast<std::uint64_t>(values_.nodata()));
-    } else {
-        declared = band.SetNoDataValue(values_.nodata());
+    const bool needs_names = options_.gridding.products != std::vector{Product::Elevation};
+    for (int b = 1; b <= band_count(); ++b) {
+        GDALRasterBand& band = *dataset.GetRasterBand(b);
+        is_described = declare_nodata(band) && is_described;
+        if (needs_names) {
+            band.SetDescription(report_.bands[static_cast<std::size_t>(b - 1)].c_str());
+        }
     }
-    if (!is_described || declared != CE_None) {
+    if (!is_described) {
         fail();
     }
+}
+
+bool GridWriter::declare_nodata(GDALRasterBand& band) const {
+    if (driver_.type == GDT_Int64) {
+        return band.SetNoDataValueAsInt64(static_cast<std::int64_t>(values_.nodata())) == CE_None;
+    }
+    if (driver_.type == GDT_UInt64) {
+        return band.SetNoDataValueAsUInt64(static_cast<std::uint64_t>(values_.nodata())) == CE_None;
+    }
+    return band.SetNoDataValue(values_.nodata()) == CE_None;
 }
 
 // Closing writes what is still held back, and tells of failures by messages alone.
@@ -191,37 +224,48 @@ void GridWriter::fill(GDALDataset& dataset, double progress_share) {
     int block_rows = 0;
     raster.GetBlockSize(&block_columns, &block_rows);
     const bool is_whole_blocks = band_rows % block_rows == 0;
-    std::unique_ptr<ScanConverter> converter;
+    const std::size_t products = options_.gridding.products.size();
+    std::unique_ptr<SurfaceGridder> gridder;
     {
         const Stopwatch watch(report_.interpolate_seconds);
-        converter = std::make_unique<ScanConverter>(tin_, grid_, band_rows);
+        gridder =
+            std::make_unique<SurfaceGridder>(tin_, options_.surface, grid_, band_rows, options_.gridding);
     }
-    const std::int64_t bands = converter->band_count();
-    std::array<LargeVector<Value>, 2> buffer;
-    const auto rows_of = [&](std::int64_t band) {
-        const auto [first, end] = converter->band_rows(band);
-        return std::span(buffer[static_cast<std::size_t>(band % 2)])
+    const std::int64_t bands = gridder->band_count();
+    // Two bands of rows, each with an array a product.
+    std::array<std::vector<LargeVector<Value>>, 2> buffer{std::vector<LargeVector<Value>>(products),
+                                                          std::vector<LargeVector<Value>>(products)};
+    const auto values_of = [&](std::int64_t band, std::size_t product) {
+        const auto [first, end] = gridder->band_rows(band);
+        return std::span(buffer[static_cast<std::size_t>(band % 2)][product])
             .first(static_cast<std::size_t>((end - first) * grid_.columns));
     };
     const auto compute = [&](std::int64_t band) {
         const Stopwatch watch(report_.interpolate_seconds);
-        buffer[static_cast<std::size_t>(band % 2)].resize(
-            static_cast<std::size_t>(band_rows * grid_.columns));
-        const std::span<Value> values = rows_of(band);
-        report_.cells_with_value += converter->fill(band, values, static_cast<Value>(values_.filler()));
-        if (values_.must_check()) {
-            values_.check(values, grid_, converter->band_rows(band).first);
+        std::vector<std::span<Value>> values(products);
+        for (std::size_t p = 0; p < products; ++p) {
+            buffer[static_cast<std::size_t>(band % 2)][p].resize(
+                static_cast<std::size_t>(band_rows * grid_.columns));
+            values[p] = values_of(band, p);
+        }
+        report_.cells_with_value += gridder->fill(band, values, static_cast<Value>(values_.filler()));
+        for (std::size_t p = 0; p < products && values_.must_check(); ++p) {
+            values_.check(values[p], grid_, gridder->band_rows(band).first);
         }
     };
     const auto write = [&](std::int64_t band) {
         const Stopwatch watch(report_.write_seconds);
-        const auto [first, end] = converter->band_rows(band);
+        const auto [first, end] = gridder->band_rows(band);
         const auto columns = static_cast<int>(grid_.columns);
         const auto rows = static_cast<int>(end - first);
-        if (raster.RasterIO(GF_Write, 0, static_cast<int>(first), columns, rows, rows_of(band).data(),
-                            columns, rows, kBufferType, 0, 0, nullptr) != CE_None ||
-            (is_whole_blocks && raster.FlushCache(false) != CE_None)) {
-            fail();
+        for (std::size_t p = 0; p < products; ++p) {
+            GDALRasterBand& of_product = *dataset.GetRasterBand(static_cast<int>(p) + 1);
+            if (of_product.RasterIO(GF_Write, 0, static_cast<int>(first), columns, rows,
+                                    values_of(band, p).data(), columns, rows, kBufferType, 0, 0,
+                                    nullptr) != CE_None ||
+                (is_whole_blocks && products == 1 && of_product.FlushCache(false) != CE_None)) {
+                fail();
+            }
         }
         report_progress(options_.progress,
                         progress_share * static_cast<double>(band + 1) / static_cast<double>(bands));
@@ -260,7 +304,7 @@ void GridWriter::copy_from(GDALDataset& source, const std::string& path) {
         return TRUE;
     };
     const Stopwatch stopwatch(report_.write_seconds);
-    CPLStringList list = creation_options(driver_, options_.creation_options);
+    CPLStringList list = creation_options(driver_, options_.creation_options, band_count() > 1);
     GDALDatasetUniquePtr dataset(
         driver_.driver->CreateCopy(path.c_str(), &source, FALSE, list.List(), on_progress, &watch));
     if (watch.stopped) {
@@ -298,7 +342,7 @@ void GridWriter::copy(const std::string& path) {
 WrittenGrid GridWriter::write(const std::string& path) {
     require_free_space(target_, bytes());
     if (driver_.can_create) {
-        CPLStringList list = creation_options(driver_, options_.creation_options);
+        CPLStringList list = creation_options(driver_, options_.creation_options, band_count() > 1);
         GDALDatasetUniquePtr dataset = create(driver_.driver, path, list.List());
         describe(*dataset);
         fill_any(*dataset, 1);
@@ -324,25 +368,86 @@ void check_grid_target(const std::string& target, const WriteGridOptions& option
     }
 }
 
+namespace {
+
+/// A raster and its preview, complete but under temporary names until both are committed.
+class PendingGrid {
+  public:
+    PendingGrid(const std::string& target, const WriteGridOptions& options)
+        : output_(target, options.overwrite), target_(target) {
+        if (!options.preview.empty()) {
+            preview_ = std::make_unique<AtomicOutput>(options.preview, options.overwrite);
+        }
+    }
+
+    WrittenGrid write(const Tin& tin, const Crs& crs, const GridGeometry& grid,
+                      const WriteGridOptions& options) const {
+        WrittenGrid written;
+        tbb::task_arena arena(count_threads(options.threads));
+        arena.execute([&] { written = GridWriter(tin, crs, grid, target_, options).write(output_.path()); });
+        if (preview_) {
+            write_preview(output_.path(), preview_->path(), preview_->target(), choose_z_factor(tin));
+        }
+        return written;
+    }
+
+    void commit() {
+        output_.commit();
+        if (preview_) {
+            preview_->commit();
+        }
+    }
+
+  private:
+    AtomicOutput output_;
+    const std::string& target_;
+    std::unique_ptr<AtomicOutput> preview_;
+};
+
+}  // namespace
+
 WrittenGrid write_grid(const Tin& tin, const Crs& crs, const GridGeometry& grid, const std::string& target,
                        const WriteGridOptions& options) {
     check_grid_target(target, options);
-    AtomicOutput output(target, options.overwrite);
-    std::unique_ptr<AtomicOutput> preview;
-    if (!options.preview.empty()) {
-        preview = std::make_unique<AtomicOutput>(options.preview, options.overwrite);
-    }
-    WrittenGrid written;
-    tbb::task_arena arena(count_threads(options.threads));
-    arena.execute([&] { written = GridWriter(tin, crs, grid, target, options).write(output.path()); });
-    if (preview) {
-        write_preview(output.path(), preview->path(), preview->target(), choose_z_factor(tin));
-    }
-    output.commit();
-    if (preview) {
-        preview->commit();
-    }
+    PendingGrid pending(target, options);
+    WrittenGrid written = pending.write(tin, crs, grid, options);
+    pending.commit();
     return written;
+}
+
+WrittenGrid write_grids(const Tin& tin, const Crs& crs, const GridGeometry& grid,
+                        std::span<const std::string> targets, const WriteGridOptions& options) {
+    assert(targets.size() == options.gridding.products.size());
+    std::vector<std::unique_ptr<PendingGrid>> pending;
+    WrittenGrid all;
+    for (std::size_t i = 0; i < targets.size(); ++i) {
+        WriteGridOptions of_target = options;
+        of_target.gridding.products = {options.gridding.products[i]};
+        of_target.preview = i == 0 ? options.preview : std::string();
+        const auto share = [&](double at) {
+            return (static_cast<double>(i) + at) / static_cast<double>(targets.size());
+        };
+        if (options.progress) {
+            of_target.progress = [&options, share](double at) { return options.progress(share(at)); };
+        }
+        check_grid_target(targets[i], of_target);
+        pending.push_back(std::make_unique<PendingGrid>(targets[i], of_target));
+        const WrittenGrid written = pending.back()->write(tin, crs, grid, of_target);
+        all.interpolate_seconds += written.interpolate_seconds;
+        all.write_seconds += written.write_seconds;
+        all.bands.insert(all.bands.end(), written.bands.begin(), written.bands.end());
+        all.warnings.insert(all.warnings.end(), written.warnings.begin(), written.warnings.end());
+        if (i == 0) {
+            all.driver = written.driver;
+            all.data_type = written.data_type;
+            all.nodata = written.nodata;
+            all.cells_with_value = written.cells_with_value;
+        }
+    }
+    for (const std::unique_ptr<PendingGrid>& one : pending) {
+        one->commit();
+    }
+    return all;
 }
 
 }  // namespace tinwright::io

@@ -2,6 +2,9 @@
 
 #include <stdexcept>
 
+#include <tbb/task_arena.h>
+
+#include "tinwright/geometry/threads.hpp"
 #include "tinwright/surface/clough_tocher.hpp"
 #include "tinwright/surface/linear.hpp"
 #include "tinwright/surface/natural_neighbor.hpp"
@@ -15,16 +18,8 @@ bool is_smooth(InterpolationMethod method) {
     return method == InterpolationMethod::Smooth || method == InterpolationMethod::SmoothC1;
 }
 
-}  // namespace
-
-void check_interpolation(const InterpolationOptions& options) {
-    if (is_smooth(options.method)) {
-        check_smooth(options.smooth);
-    }
-}
-
-std::unique_ptr<Interpolator> make_interpolator(const Tin& tin, const SharpEdges& sharp,
-                                                const InterpolationOptions& options) {
+std::unique_ptr<Interpolator> make_method(const Tin& tin, const SharpEdges& sharp,
+                                          const InterpolationOptions& options) {
     using Kind = NaturalNeighborOptions::Kind;
     SmoothOptions smooth = options.smooth;
     switch (options.method) {
@@ -50,6 +45,28 @@ std::unique_ptr<Interpolator> make_interpolator(const Tin& tin, const SharpEdges
             return make_smooth(tin, sharp, smooth);
     }
     throw std::logic_error("unknown interpolation method");
+}
+
+}  // namespace
+
+bool is_bounded(InterpolationMethod method) {
+    // Natural neighbours' weights may be negative beside sharp edges.
+    return method == InterpolationMethod::Linear || method == InterpolationMethod::Nearest ||
+           method == InterpolationMethod::CloughTocherLimit;
+}
+
+void check_interpolation(const InterpolationOptions& options) {
+    if (is_smooth(options.method)) {
+        check_smooth(options.smooth);
+    }
+}
+
+std::unique_ptr<Interpolator> make_interpolator(const Tin& tin, const SharpEdges& sharp,
+                                                const InterpolationOptions& options) {
+    std::unique_ptr<Interpolator> made;
+    tbb::task_arena arena(count_threads(options.threads));
+    arena.execute([&] { made = make_method(tin, sharp, options); });
+    return made;
 }
 
 }  // namespace tinwright

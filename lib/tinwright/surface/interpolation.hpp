@@ -45,13 +45,16 @@ struct InterpolationOptions {
     InterpolationMethod method = InterpolationMethod::Linear;
     GradientMethod gradients = GradientMethod::Octant;  ///< for natural-neighbor:c1 and clough-tocher
     SmoothOptions smooth = {};                          ///< for smooth; `is_c1` is set by the method
+    int threads = 1;  ///< 0: all processors; the surface does not depend on it
 };
+
+/// Whether the method never leaves the range of the vertices' elevations.
+bool is_bounded(InterpolationMethod method);
 
 /// Throws UsageError for options out of range, of the methods that have them.
 void check_interpolation(const InterpolationOptions& options);
 
-/// Prepares a surface over the terrain of `tin`, which must outlive it. Parallel inside the caller's task
-/// arena; what the surface is does not depend on the number of threads. Throws what `check_interpolation`
+/// Prepares a surface over the terrain of `tin`, which must outlive it. Throws what `check_interpolation`
 /// does. Cost: as the method's header says. `sharp` need not outlive the call.
 std::unique_ptr<Interpolator> make_interpolator(const Tin& tin, const SharpEdges& sharp,
                                                 const InterpolationOptions& options);

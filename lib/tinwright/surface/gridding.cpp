@@ -1,0 +1,211 @@
+#include "tinwright/surface/gridding.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include "tinwright/geometry/large_vector.hpp"
+#include "tinwright/surface/linear.hpp"
+#include "tinwright/surface/sample_tree.hpp"
+#include "tinwright/surface/scan_conversion.hpp"
+
+namespace tinwright {
+
+namespace {
+
+constexpr std::int64_t kCellsOfTask = 4096;
+
+bool is_from_gradient(Product product) {
+    return product != Product::Elevation && product != Product::NearestDistance &&
+           product != Product::FaceNumber;
+}
+
+/// Numbers of the terrain faces as TIN files have them: in the order of slots.
+std::vector<std::uint32_t> number_faces(const TriangleMesh& mesh) {
+    std::vector<std::uint32_t> numbers(mesh.slot_count());
+    std::uint32_t number = 0;
+    for (std::uint32_t f = 0; f < mesh.slot_count(); ++f) {
+        numbers[f] = number;
+        number += mesh.is_terrain({f}) ? 1 : 0;
+    }
+    return numbers;
+}
+
+/// What one thread keeps from cell to cell.
+struct Worker {
+    std::unique_ptr<SurfaceReader> reader;
+    std::optional<VertexId> nearest;
+};
+
+}  // namespace
+
+struct SurfaceGridder::State {
+    const Tin& tin;
+    GriddingOptions options;
+    ScanConverter converter;
+    std::int64_t columns;
+    bool is_of_faces;  ///< elevations are those of the faces, which the converter knows best
+    bool has_elevation;
+    bool has_gradient;
+    std::unique_ptr<Interpolator> faces;  ///< where no surface was given
+    const Interpolator* surface;
+    std::optional<QueryLattice> lattice;
+    std::optional<SampleTree> samples;
+    std::vector<std::uint32_t> face_numbers;
+    std::vector<double> column_at;
+    std::vector<double> row_at;
+    LargeVector<FaceId> face_of_cell;
+    tbb::enumerable_thread_specific<Worker> workers;
+
+    State(const Tin& of, const Interpolator* read_by, const GridGeometry& grid, std::int64_t band_rows,
+          const GriddingOptions& asked);
+
+    template <class Value>
+    std::int64_t fill(std::int64_t band, std::span<const std::span<Value>> values, Value nodata);
+
+  private:
+    [[nodiscard]] bool asks_for(Product product) const {
+        return std::find(options.products.begin(), options.products.end(), product) != options.products.end();
+    }
+    /// Whether there is nothing to fill in but the elevations of the faces.
+    [[nodiscard]] bool is_plain() const {
+        return is_of_faces && options.products == std::vector{Product::Elevation};
+    }
+    SurfaceReading read(Worker& worker, const SurfacePlace& place) const;
+    [[nodiscard]] double value_of(Product product, const SurfaceReading& reading, const SurfacePlace& place,
+                                  Worker& worker) const;
+};
+
+SurfaceGridder::State::State(const Tin& of, const Interpolator* read_by, const GridGeometry& grid,
+                             std::int64_t band_rows, const GriddingOptions& asked)
+    : tin(of),
+      options(asked),
+      converter(of, grid, band_rows),
+      columns(grid.columns),
+      is_of_faces(read_by == nullptr),
+      has_elevation(asks_for(Product::Elevation)),
+      has_gradient(std::any_of(asked.products.begin(), asked.products.end(), is_from_gradient)),
+      surface(read_by) {
+    if (is_plain()) {
+        return;
+    }
+    if (is_of_faces) {
+        faces = make_linear(tin);
+        surface = faces.get();
+    }
+    lattice.emplace(tin);
+    column_at = converter.columns_at(*lattice);
+    row_at = converter.rows_at(*lattice);
+    if (asks_for(Product::NearestDistance)) {
+        samples.emplace(tin);
+    }
+    if (asks_for(Product::FaceNumber)) {
+        face_numbers = number_faces(tin.mesh);
+    }
+}
+
+SurfaceReading SurfaceGridder::State::read(Worker& worker, const SurfacePlace& place) const {
+    if (has_gradient) {
+        SurfaceReading reading = worker.reader->read(place);
+        reading.gradient = {reading.gradient.x * options.z_factor, reading.gradient.y * options.z_factor};
+        return reading;
+    }
+    return {has_elevation && !is_of_faces ? worker.reader->elevation(place) : 0, {}};
+}
+
+double SurfaceGridder::State::value_of(Product product, const SurfaceReading& reading,
+                                       const SurfacePlace& place, Worker& worker) const {
+    switch (product) {
+        case Product::Elevation:
+            return reading.z;
+        case Product::Slope:
+            return slope_of(reading.gradient, options.slope_unit);
+        case Product::Aspect:
+            return aspect_of(reading.gradient);
+        case Product::GradientX:
+            return reading.gradient.x;
+        case Product::GradientY:
+            return reading.gradient.y;
+        case Product::Hillshade:
+            return hillshade_of(reading.gradient, options.light);
+        case Product::NearestDistance:
+            worker.nearest = samples->nearest(place.at, worker.nearest);
+            return samples->distance(place.at, *worker.nearest);
+        case Product::FaceNumber:
+            break;
+    }
+    return face_numbers[place.face.value];
+}
+
+template <class Value>
+std::int64_t SurfaceGridder::State::fill(std::int64_t band, std::span<const std::span<Value>> values,
+                                         Value nodata) {
+    assert(values.size() == options.products.size());
+    if (is_plain()) {
+        return converter.fill(band, values[0], nodata);
+    }
+    const auto [first_row, end_row] = converter.band_rows(band);
+    const std::int64_t count = (end_row - first_row) * columns;
+    face_of_cell.resize(static_cast<std::size_t>(count));
+    const std::int64_t covered = converter.fill_faces(band, face_of_cell);
+    const std::int64_t row = first_row;
+    tbb::parallel_for(tbb::blocked_range<std::int64_t>(0, count, kCellsOfTask), [&](const auto& range) {
+        Worker& worker = workers.local();
+        if (worker.reader == nullptr) {
+            worker.reader = surface->make_reader();
+        }
+        for (std::int64_t cell = range.begin(); cell != range.end(); ++cell) {
+            const auto i = static_cast<std::size_t>(cell);
+            const FaceId face = face_of_cell[i];
+            if (face == kNoFace) {
+                for (const std::span<Value>& of_product : values) {
+                    of_product[i] = nodata;
+                }
+                continue;
+            }
+            const SurfacePlace place{face,
+                                     {column_at[static_cast<std::size_t>(cell % columns)],
+                                      row_at[static_cast<std::size_t>(row + cell / columns)]}};
+            const SurfaceReading reading = read(worker, place);
+            for (std::size_t p = 0; p < values.size(); ++p) {
+                const double value = value_of(options.products[p], reading, place, worker);
+                values[p][i] = std::isnan(value) ? nodata : static_cast<Value>(value);
+            }
+        }
+    });
+    for (std::size_t p = 0; is_of_faces && p < values.size(); ++p) {
+        if (options.products[p] == Product::Elevation) {
+            converter.fill(band, values[p], nodata);
+        }
+    }
+    return covered;
+}
+
+SurfaceGridder::SurfaceGridder(const Tin& tin, const Interpolator* surface, const GridGeometry& grid,
+                               std::int64_t band_rows, const GriddingOptions& options)
+    : state_(std::make_unique<State>(tin, surface, grid, band_rows, options)) {}
+
+SurfaceGridder::~SurfaceGridder() = default;
+
+std::int64_t SurfaceGridder::band_count() const { return state_->converter.band_count(); }
+
+std::pair<std::int64_t, std::int64_t> SurfaceGridder::band_rows(std::int64_t band) const {
+    return state_->converter.band_rows(band);
+}
+
+std::int64_t SurfaceGridder::fill(std::int64_t band, std::span<const std::span<float>> values, float nodata) {
+    return state_->fill(band, values, nodata);
+}
+
+std::int64_t SurfaceGridder::fill(std::int64_t band, std::span<const std::span<double>> values,
+                                  double nodata) {
+    return state_->fill(band, values, nodata);
+}
+
+}  // namespace tinwright
