@@ -1,0 +1,212 @@
+#include "tinwright/surface/gradient_fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "tinwright/geometry/constructions.hpp"
+#include "tinwright/surface/cell_shares.hpp"
+
+namespace tinwright {
+
+namespace {
+
+// Neighbours in each octant. One leaves quadrics with little to average over, three reach too far out.
+constexpr unsigned kPerOctant = 2;
+// What a quadric may at most make of errors of the slopes to its neighbours; beyond it a plane is taken.
+constexpr double kMostMagnification = 8;
+// A column of which less than this is left beside those before it says nothing of its own.
+constexpr double kDependent = 1e-7;
+
+double dot(Point2 a, Point2 b) { return a.x * b.x + a.y * b.y; }
+
+}  // namespace
+
+std::span<const GradientWeight> GradientFit::find_stencil(const VertexFan& fan) {
+    const Tie tie = find_tie(fan);
+    if (method_ == GradientMethod::Octant) {
+        search_.find_octants(fan, kPerOctant, false, neighbors_);
+        weigh_by_distance();
+        if (fit(Model::Quadric, tie) && magnification(tin_.mesh.origin(fan.first)) <= kMostMagnification) {
+            return stencil_;
+        }
+    }
+    search_.find_ring(fan, neighbors_);
+    if (method_ == GradientMethod::Sibson && fan.is_closed) {
+        weigh_by_cells();
+    } else {
+        weigh_by_distance();
+    }
+    fit(Model::Plane, tie);
+    return stencil_;
+}
+
+Point2 GradientFit::estimate(const VertexFan& fan) {
+    const double z = tin_.z[tin_.mesh.origin(fan.first).value];
+    Point2 gradient;
+    for (const GradientWeight& term : find_stencil(fan)) {
+        const double rise = tin_.z[term.vertex.value] - z;
+        gradient.x += term.weight.x * rise;
+        gradient.y += term.weight.y * rise;
+    }
+    return gradient;
+}
+
+GradientFit::Tie GradientFit::find_tie(const VertexFan& fan) const {
+    const TriangleMesh& mesh = tin_.mesh;
+    if (fan.is_closed) {
+        return {};
+    }
+    const Key2 at = tin_.key(mesh.origin(fan.first));
+    const auto along = [&](VertexId end) { return Point2{tin_.key(end).x - at.x, tin_.key(end).y - at.y}; };
+    const VertexId a = mesh.destination(fan.first);
+    const VertexId b = last_neighbor(mesh, fan);
+    const bool is_a_sharp = sharp_.is_sharp(fan.first);
+    const bool is_b_sharp = sharp_.is_sharp(previous(fan.last));
+    if (!is_a_sharp && !is_b_sharp) {
+        return {};
+    }
+    if (a == b || is_a_sharp != is_b_sharp) {
+        const VertexId end = is_a_sharp ? a : b;
+        return {along(end), {Tie::Term{end, 1}}, 1};
+    }
+    const Point2 to_a = along(a);
+    const Point2 to_b = along(b);
+    const double a_length = std::sqrt(dot(to_a, to_a));
+    const double b_length = std::sqrt(dot(to_b, to_b));
+    if (dot(to_a, to_b) > -0.5 * a_length * b_length) {
+        return {};
+    }
+    const double a_share = -b_length / a_length;
+    const double b_share = a_length / b_length;
+    return {{a_share * to_a.x + b_share * to_b.x, a_share * to_a.y + b_share * to_b.y},
+            {Tie::Term{a, a_share}, Tie::Term{b, b_share}},
+            2};
+}
+
+void GradientFit::weigh_by_distance() {
+    row_weight_.clear();
+    for (const VertexNeighbor& neighbor : neighbors_) {
+        row_weight_.push_back(1 / std::sqrt(neighbor.distance2));
+    }
+}
+
+void GradientFit::weigh_by_cells() {
+    row_weight_ = find_cell_shares(neighbors_);
+    for (std::size_t i = 0; i < neighbors_.size(); ++i) {
+        row_weight_[i] = std::sqrt(row_weight_[i] / neighbors_[i].distance2);
+    }
+}
+
+/// Fills `stencil_` from the neighbours and their weights; whether they determine all of the model. What they
+/// do not determine of a plane, few as they are or all on one line, is taken to be zero.
+bool GradientFit::fit(Model model, const Tie& tie) {
+    double farthest2 = 0;
+    for (const VertexNeighbor& neighbor : neighbors_) {
+        farthest2 = std::max(farthest2, neighbor.distance2);
+    }
+    const double scale = 1 / std::sqrt(farthest2);
+    make_columns(model, tie, scale);
+    const bool is_determined = orthogonalize();
+    make_stencil(tie, scale);
+    return is_determined;
+}
+
+void GradientFit::make_columns(Model model, const Tie& tie, double scale) {
+    const bool is_tied = tie.count > 0;
+    const unsigned first_linear = model == Model::Quadric ? 3 : 0;
+    column_count_ = first_linear + (is_tied ? 1 : 2);
+    for (unsigned j = 0; j < column_count_; ++j) {
+        column_[j].resize(neighbors_.size());
+    }
+    const double length = std::sqrt(dot(tie.direction, tie.direction));
+    for (std::size_t i = 0; i < neighbors_.size(); ++i) {
+        const Point2 u{neighbors_[i].offset.x * scale, neighbors_[i].offset.y * scale};
+        const double weight = row_weight_[i];
+        if (model == Model::Quadric) {
+            column_[0][i] = weight * u.x * u.x;
+            column_[1][i] = weight * u.x * u.y;
+            column_[2][i] = weight * u.y * u.y;
+        }
+        if (is_tied) {
+            column_[first_linear][i] = weight * ((tie.direction.x * u.y - tie.direction.y * u.x) / length);
+        } else {
+            column_[first_linear][i] = weight * u.x;
+            column_[first_linear + 1][i] = weight * u.y;
+        }
+    }
+}
+
+/// Gram and Schmidt: `r_` and orthonormal columns. Columns that depend on those before become zero, with an
+/// infinite diagonal of `r_`, so that what they stand for comes out as zero. Whether there were none.
+bool GradientFit::orthogonalize() {
+    const std::size_t rows = neighbors_.size();
+    const auto product = [&](const std::vector<double>& a, const std::vector<double>& b) {
+        double sum = 0;
+        for (std::size_t i = 0; i < rows; ++i) {
+            sum += a[i] * b[i];
+        }
+        return sum;
+    };
+    bool is_determined = rows >= column_count_;
+    for (unsigned j = 0; j < column_count_; ++j) {
+        std::vector<double>& column = column_[j];
+        const double before = product(column, column);
+        for (unsigned k = 0; k < j; ++k) {
+            r_[k][j] = product(column_[k], column);
+            for (std::size_t i = 0; i < rows; ++i) {
+                column[i] -= r_[k][j] * column_[k][i];
+            }
+        }
+        const double after = product(column, column);
+        const bool is_dependent = !(after > kDependent * kDependent * before);
+        is_determined = is_determined && !is_dependent;
+        r_[j][j] = is_dependent ? std::numeric_limits<double>::infinity() : std::sqrt(after);
+        const double factor = is_dependent ? 0 : 1 / r_[j][j];
+        for (std::size_t i = 0; i < rows; ++i) {
+            column[i] *= factor;
+        }
+    }
+    return is_determined;
+}
+
+void GradientFit::make_stencil(const Tie& tie, double scale) {
+    stencil_.clear();
+    const unsigned y = column_count_ - 1;
+    if (tie.count == 0) {
+        const unsigned x = y - 1;
+        for (std::size_t i = 0; i < neighbors_.size(); ++i) {
+            const double along_y = column_[y][i] / r_[y][y];
+            const double along_x = (column_[x][i] - r_[x][y] * along_y) / r_[x][x];
+            const double factor = row_weight_[i] * scale;
+            stencil_.push_back({neighbors_[i].vertex, {along_x * factor, along_y * factor}});
+        }
+        return;
+    }
+    const double length = std::sqrt(dot(tie.direction, tie.direction));
+    const Point2 along{tie.direction.x / length, tie.direction.y / length};
+    double leak = 0;  // of a unit slope along the line into the slope across it
+    for (std::size_t i = 0; i < neighbors_.size(); ++i) {
+        const double across = column_[y][i] / r_[y][y] * row_weight_[i] * scale;
+        leak += across * (along.x * neighbors_[i].offset.x + along.y * neighbors_[i].offset.y);
+        stencil_.push_back({neighbors_[i].vertex, {-along.y * across, along.x * across}});
+    }
+    for (unsigned k = 0; k < tie.count; ++k) {
+        const double share = tie.term[k].share / length;
+        stencil_.push_back(
+            {tie.term[k].vertex, {share * (along.x + along.y * leak), share * (along.y - along.x * leak)}});
+    }
+}
+
+/// The sum over the stencil of weight times distance: at most so much larger than an error that the slopes
+/// to all neighbours have can the gradient's be.
+double GradientFit::magnification(VertexId center) const {
+    double sum = 0;
+    for (const GradientWeight& term : stencil_) {
+        sum += std::sqrt(dot(term.weight, term.weight) *
+                         squared_distance(tin_.key(center), tin_.key(term.vertex)));
+    }
+    return sum;
+}
+
+}  // namespace tinwright

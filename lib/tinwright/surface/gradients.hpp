@@ -29,8 +29,15 @@ struct GradientWeight {
     Point2 weight{};
 };
 
-/// The gradient of the surface at each corner of each terrain face, z units over CRS units. Around a vertex
-/// it is the same in all faces between one sharp edge or border and the next.
+/// The gradient of the surface at each corner of each terrain face, z units over CRS units.
+///
+/// Estimated once for all faces around a vertex between one wall (a sharp edge or the border) and the next,
+/// from vertices on their side of walls only (`vertex_neighbors.hpp`); where an octant's quadric is poorly
+/// determined the ring's plane is taken. Interpolators keep sharp edges straight between their vertices, so
+/// at a corner with a sharp edge the gradient has that edge's slope along it, on either side of it, and along
+/// the corner's other edge what it was estimated to be: the surface is continuous across sharp edges, and
+/// the faces of a fan agree but for the first edges beside a line, and there too where the line is straight
+/// and its slope stays the same.
 class CornerGradients {
   public:
     /// `tin` must outlive it. O(n), parallel inside the caller's task arena; the result does not depend on
