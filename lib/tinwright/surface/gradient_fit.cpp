@@ -15,10 +15,20 @@ namespace {
 constexpr unsigned kPerOctant = 2;
 // What a quadric may at most make of errors of the slopes to its neighbours; beyond it a plane is taken.
 constexpr double kMostMagnification = 8;
-// A column of which less than this is left beside those before it says nothing of its own.
-constexpr double kDependent = 1e-7;
+// A fit is poor if of one of its columns less than this is left beside those before; where there is no other
+// fit to turn to, a column counts until nothing is left but rounding.
+constexpr double kPoor = 1e-5;
+constexpr double kDependent = 1e-14;
 
 double dot(Point2 a, Point2 b) { return a.x * b.x + a.y * b.y; }
+
+double product(const std::vector<double>& a, const std::vector<double>& b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        sum += a[i] * b[i];
+    }
+    return sum;
+}
 
 }  // namespace
 
@@ -34,9 +44,11 @@ std::span<const GradientWeight> GradientFit::find_stencil(const VertexFan& fan) 
     search_.find_ring(fan, neighbors_);
     if (method_ == GradientMethod::Sibson && fan.is_closed) {
         weigh_by_cells();
-    } else {
-        weigh_by_distance();
+        if (fit(Model::Plane, tie)) {
+            return stencil_;
+        }
     }
+    weigh_by_distance();
     fit(Model::Plane, tie);
     return stencil_;
 }
@@ -137,30 +149,42 @@ void GradientFit::make_columns(Model model, const Tie& tie, double scale) {
     }
 }
 
+/// Takes from a column what the orthonormal ones before it say; the squared length that is left of `before`.
+double GradientFit::subtract_others(unsigned j, double before) {
+    std::vector<double>& column = column_[j];
+    for (unsigned k = 0; k < j; ++k) {
+        r_[k][j] = 0;
+    }
+    double after = before;
+    for (int pass = 0; pass < 2; ++pass) {
+        for (unsigned k = 0; k < j; ++k) {
+            const double part = product(column_[k], column);
+            r_[k][j] += part;
+            for (std::size_t i = 0; i < column.size(); ++i) {
+                column[i] -= part * column_[k][i];
+            }
+        }
+        const double left = product(column, column);
+        const bool is_clean = left > 0.01 * after;  // or else rounding has its share in what is left
+        after = left;
+        if (is_clean) {
+            break;
+        }
+    }
+    return after;
+}
+
 /// Gram and Schmidt: `r_` and orthonormal columns. Columns that depend on those before become zero, with an
-/// infinite diagonal of `r_`, so that what they stand for comes out as zero. Whether there were none.
+/// infinite diagonal of `r_`, so that what they stand for comes out as zero. Whether none came near to that.
 bool GradientFit::orthogonalize() {
     const std::size_t rows = neighbors_.size();
-    const auto product = [&](const std::vector<double>& a, const std::vector<double>& b) {
-        double sum = 0;
-        for (std::size_t i = 0; i < rows; ++i) {
-            sum += a[i] * b[i];
-        }
-        return sum;
-    };
     bool is_determined = rows >= column_count_;
     for (unsigned j = 0; j < column_count_; ++j) {
         std::vector<double>& column = column_[j];
         const double before = product(column, column);
-        for (unsigned k = 0; k < j; ++k) {
-            r_[k][j] = product(column_[k], column);
-            for (std::size_t i = 0; i < rows; ++i) {
-                column[i] -= r_[k][j] * column_[k][i];
-            }
-        }
-        const double after = product(column, column);
+        const double after = subtract_others(j, before);
         const bool is_dependent = !(after > kDependent * kDependent * before);
-        is_determined = is_determined && !is_dependent;
+        is_determined = is_determined && after > kPoor * kPoor * before;
         r_[j][j] = is_dependent ? std::numeric_limits<double>::infinity() : std::sqrt(after);
         const double factor = is_dependent ? 0 : 1 / r_[j][j];
         for (std::size_t i = 0; i < rows; ++i) {

@@ -50,6 +50,7 @@ class GradientFit {
     void weigh_by_distance();
     void weigh_by_cells();
     void make_columns(Model model, const Tie& tie, double scale);
+    double subtract_others(unsigned j, double before);
     bool orthogonalize();
     void make_stencil(const Tie& tie, double scale);
     [[nodiscard]] double magnification(VertexId center) const;

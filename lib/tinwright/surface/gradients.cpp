@@ -139,11 +139,12 @@ Point2 CornerGradients::State::at_corner(Point2 of_fan, HalfEdgeId corner) const
         return of_fan;
     }
     const double z = tin.z[tin.mesh.origin(corner).value];
-    std::array<double, 2> rise{};
+    std::array<double, 2> missing{};  // of the rise along a sharp edge
     for (unsigned i = 0; i < 2; ++i) {
-        rise[i] = edges.is_sharp[i] ? tin.z[edges.ends[i].value] - z : dot(of_fan, edges.edge[i]);
+        missing[i] = edges.is_sharp[i] ? tin.z[edges.ends[i].value] - z - dot(of_fan, edges.edge[i]) : 0;
     }
-    return edges.gradient(rise[0], rise[1]);
+    const Point2 change = edges.gradient(missing[0], missing[1]);
+    return {of_fan.x + change.x, of_fan.y + change.y};
 }
 
 /// The gradients of one turn around a vertex; the number of terrain faces in it.
@@ -260,8 +261,9 @@ std::vector<GradientWeight> CornerGradients::weights(HalfEdgeId corner) const {
     const CornerEdges edges(state.tin, state.sharp, corner);
     if (edges.has_sharp()) {
         for (GradientWeight& each : weights) {
-            each.weight = edges.gradient(edges.is_sharp[0] ? 0 : dot(each.weight, edges.edge[0]),
-                                         edges.is_sharp[1] ? 0 : dot(each.weight, edges.edge[1]));
+            const Point2 change = edges.gradient(edges.is_sharp[0] ? -dot(each.weight, edges.edge[0]) : 0,
+                                                 edges.is_sharp[1] ? -dot(each.weight, edges.edge[1]) : 0);
+            each.weight = {each.weight.x + change.x, each.weight.y + change.y};
         }
         for (unsigned i = 0; i < 2; ++i) {
             if (edges.is_sharp[i]) {
