@@ -32,13 +32,14 @@ Tin make_tin(const Fold& fold, const std::string& criterion) {
     options.duplicates.policy = tinwright::DuplicatePolicy::Mean;
     options.noding.crossing_z = tinwright::CrossingPolicy::Mean;
     options.threads = 0;
-    if (!criterion.empty()) {
-        options.optimize.emplace();
-        const auto found = tinwright::find_criterion(criterion);
-        if (!found) {
-            throw std::runtime_error("there is no criterion " + criterion);
+    const std::string_view name = std::string_view(criterion).substr(0, criterion.find(':'));
+    if (const auto optimal = tinwright::find_criterion(name)) {
+        options.optimize.emplace().criterion = *optimal;
+    } else if (!criterion.empty()) {
+        options.data_dependent.emplace().measure = parse_name(tinwright::kCreaseMeasures, name);
+        if (name.size() < criterion.size()) {
+            options.data_dependent->delaunay_order = std::stoi(criterion.substr(name.size() + 1));
         }
-        options.optimize->criterion = *found;
     }
     return tinwright::triangulate(fold.samples, fold.lines, options).tin;
 }
@@ -80,6 +81,9 @@ std::vector<Contender> contenders_of(const std::string& list) {
     if (list.empty()) {
         for (const auto& [name, method] : tinwright::kInterpolationMethods) {
             contenders.push_back(parse_contender(std::string(name)));
+        }
+        for (const auto& [name, measure] : tinwright::kCreaseMeasures) {
+            contenders.push_back(parse_contender("linear@" + std::string(name)));
         }
         return contenders;
     }

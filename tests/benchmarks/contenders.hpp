@@ -20,8 +20,8 @@ struct Contender {
     tinwright::InterpolationOptions interpolation;
 };
 
-/// `METHOD[/GRADIENTS][@CRITERION]`: as `--method`, `--gradients` and `--criterion`. Throws
-/// std::runtime_error for what is none.
+/// `METHOD[/GRADIENTS][@CRITERION[:ORDER]]`: as `--method`, `--gradients`, `--criterion`, `--delaunay-order`.
+/// Throws std::runtime_error for what is none.
 Contender parse_contender(const std::string& text);
 
 /// Those of a list with commas, behind linear, which comes first. Without a list: all methods on the Delaunay

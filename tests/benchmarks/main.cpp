@@ -49,7 +49,7 @@ constexpr const char* kUsage =
     "usage: tinwright_benchmarks delaunay|raster|job|read|criteria|criteria_growth|criteria_worst|\n"
     "                            noding|constrained|conforming|accuracy|convergence\n"
     "           [--rounds K] [--scale FRACTION] [--tinwright COMMAND] [--images FOLDER]\n"
-    "           [--data FOLDER] [--sets NAME,...] [--methods METHOD[/GRADIENTS][@CRITERION],...]\n"
+    "           [--data FOLDER] [--sets NAME,...] [--methods METHOD[/GRADIENTS][@CRITERION[:ORDER]],...]\n"
     "Prints a table of docs/benchmarks.md or docs/interpolation.md. Medians of K interleaved runs (default "
     "5).\n"
     "Accuracy is measured on the data sets in FOLDER (default: the environment's TINWRIGHT_DATA) and on\n"

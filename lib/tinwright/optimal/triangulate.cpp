@@ -41,6 +41,15 @@ void check_optimize_options(const OptimizeOptions& options) {
     }
 }
 
+void check_data_dependent_options(const DataDependentOptions& options) {
+    if (options.delaunay_order && *options.delaunay_order < 0) {
+        throw UsageError("the Delaunay order must be zero or more");
+    }
+    if (options.budget_seconds && !(*options.budget_seconds >= 0)) {
+        throw UsageError("the budget must be zero seconds or more");
+    }
+}
+
 void check_options(const TriangulateOptions& options) {
     if (options.threads < 0) {
         throw UsageError("the number of threads must not be negative");
@@ -62,6 +71,12 @@ void check_options(const TriangulateOptions& options) {
     }
     if (options.optimize) {
         check_optimize_options(*options.optimize);
+    }
+    if (options.data_dependent) {
+        check_data_dependent_options(*options.data_dependent);
+        if (options.optimize) {
+            throw UsageError("a TIN is made optimal or data-dependent, not both");
+        }
     }
     if (options.max_edge && !(*options.max_edge > 0)) {
         throw UsageError("the longest edge allowed must be above zero");
@@ -225,6 +240,9 @@ Triangulated triangulate_here(std::span<const Point3> samples, std::span<const B
     report.constrain_seconds = seconds_since(domain_start);
     if (options.optimize) {
         report.optimize = optimize(tin, *options.optimize);
+    }
+    if (options.data_dependent) {
+        report.data_dependent = flip_creases(tin, *options.data_dependent);
     }
     const auto voids_start = Clock::now();
     if (options.max_edge) {

@@ -13,6 +13,7 @@
 #include "tinwright/delaunay/sample_vertices.hpp"
 #include "tinwright/geometry/progress.hpp"
 #include "tinwright/mesh/tin.hpp"
+#include "tinwright/optimal/data_dependent.hpp"
 #include "tinwright/optimal/edge_insertion.hpp"
 
 /// The front door: samples, lines and options in, a TIN and a report out.
@@ -29,6 +30,8 @@ struct TriangulateOptions {
     std::optional<double> max_edge;  ///< faces with a longer edge (CRS units) are voids
     /// Makes the TIN optimal after the domain is decided; empty: it stays Delaunay.
     std::optional<OptimizeOptions> optimize;
+    /// Instead of the former: flips edges to where the elevations ask for less of a crease.
+    std::optional<DataDependentOptions> data_dependent;
     int threads = 1;  ///< 0: all processors; the result does not depend on it
     Progress progress;
 };
@@ -45,6 +48,7 @@ struct TriangulateReport {
     std::size_t hull_vertices = 0;               ///< vertices on the convex hull, collinear ones included
     DomainReport domain;
     std::optional<OptimizeReport> optimize;
+    std::optional<DataDependentReport> data_dependent;
     double triangulate_seconds = 0;  ///< lattice, sort and Delaunay
     double constrain_seconds = 0;    ///< lines, Steiner points and domain
 };
@@ -55,7 +59,8 @@ struct Triangulated {
 };
 
 /// Builds the TIN of samples and lines within the domain asked for: the Delaunay one, constrained by or
-/// conforming to the lines, or the one that is optimal under a criterion with the lines in it.
+/// conforming to the lines, or the one that is optimal under a criterion, or data-dependent, with the lines
+/// in it.
 ///
 /// `samples`: n of them, CRS units, any order. `lines`: any order, with crossings, overlaps and what else
 /// `node_lines` sorts out; samples and points of lines have three distinct locations or more. Same set of
