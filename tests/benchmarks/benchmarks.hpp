@@ -35,6 +35,8 @@ void run_noding(const Settings& settings);
 /// Lines in the triangulation: constrained Delaunay, and what makes it conforming.
 void run_constrained(const Settings& settings);
 void run_conforming(const Settings& settings);
+/// Contour lines and bands.
+void run_contour(const Settings& settings);
 /// Errors of surfaces where elevations are known: of data sets, and on functions as the samples get denser.
 void run_accuracy(const Settings& settings);
 void run_convergence(const Settings& settings);

@@ -42,12 +42,13 @@ constexpr std::array kBenchmarks{Benchmark{"delaunay", run_delaunay},
                                  Benchmark{"noding", run_noding},
                                  Benchmark{"constrained", run_constrained},
                                  Benchmark{"conforming", run_conforming},
+                                 Benchmark{"contour", run_contour},
                                  Benchmark{"accuracy", run_accuracy},
                                  Benchmark{"convergence", run_convergence}};
 
 constexpr const char* kUsage =
     "usage: tinwright_benchmarks delaunay|raster|job|read|criteria|criteria_growth|criteria_worst|\n"
-    "                            noding|constrained|conforming|accuracy|convergence\n"
+    "                            noding|constrained|conforming|contour|accuracy|convergence\n"
     "           [--rounds K] [--scale FRACTION] [--tinwright COMMAND] [--images FOLDER]\n"
     "           [--data FOLDER] [--sets NAME,...] [--methods METHOD[/GRADIENTS][@CRITERION[:ORDER]],...]\n"
     "Prints a table of docs/benchmarks.md or docs/interpolation.md. Medians of K interleaved runs (default "

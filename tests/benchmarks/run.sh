@@ -2,7 +2,7 @@
 # Builds the benchmarks, runs them and puts their tables in docs/benchmarks.md or docs/interpolation.md, wherever a
 # table has its mark.
 #   bash tests/benchmarks/run.sh [TABLE...]        tables: delaunay raster read job criteria
-#                                                 criteria_growth criteria_worst noding constrained conforming
+#                                                 criteria_growth criteria_worst noding constrained conforming contour
 #                                                 accuracy convergence (default: all)
 # ROUNDS=k changes the number of interleaved runs of which the median is taken (default 5). SCALE=f takes that part
 # of the points for a quick look. BUILD=folder holds the build. TINWRIGHT_DATA=folder holds the data sets that
@@ -17,7 +17,7 @@ rounds=${ROUNDS:-5}
 scale=${SCALE:-1}
 tables=("$@")
 if [ ${#tables[@]} -eq 0 ]; then
-    tables=(delaunay raster read job criteria criteria_growth criteria_worst noding constrained conforming
+    tables=(delaunay raster read job criteria criteria_growth criteria_worst noding constrained conforming contour
         accuracy convergence)
 fi
 
