@@ -1,0 +1,220 @@
+#include "tinwright/surface/neighbor_cavity.hpp"
+
+#include <cmath>
+
+#include "tinwright/surface/step_vectors.hpp"
+
+namespace tinwright {
+
+namespace {
+
+using internal::LocalKey;
+using steps::add;
+using steps::cross;
+using steps::dot;
+using steps::precise_cross;
+using steps::square;
+using steps::turned;
+using steps::vector_between;
+using steps::vector_to;
+
+/// What a face of the cavity adds to 8 a of its corners.
+struct FaceShares {
+    double x = 0;
+    double y = 0;
+    double w = 0;
+};
+
+/// Corners counter-clockwise.
+FaceShares shares_of_face(const LocalKey& x, const LocalKey& y, const LocalKey& w) {
+    const Point2 xy = vector_between(x, y);
+    const Point2 yw = vector_between(y, w);
+    const Point2 wx = vector_between(w, x);
+    const double inverse = -1 / precise_cross(xy, yw);
+    // The cotangent at a corner times the square of the side across: twice what it adds to both its ends.
+    const double at_x = dot(wx, xy) * inverse * square(yw);
+    const double at_y = dot(xy, yw) * inverse * square(wx);
+    const double at_w = dot(yw, wx) * inverse * square(xy);
+    return {at_w + at_y + 2 * cross(vector_to(x), yw), at_x + at_w + 2 * cross(vector_to(y), wx),
+            at_y + at_x + 2 * cross(vector_to(w), xy)};
+}
+
+/// The triangle of the place, q, and two neighbours in turn, a and b.
+struct RimTriangle {
+    RimTriangle(const LocalKey& a, const LocalKey& b)
+        : side(vector_between(a, b)),
+          inverse(1 / precise_cross(vector_to(a), vector_to(b))),
+          cotangent_a(-dot(vector_to(a), side) * inverse),
+          cotangent_b(dot(vector_to(b), side) * inverse) {}
+
+    Point2 side;     // from a to b
+    double inverse;  // of d = a x b
+    double cotangent_a;
+    double cotangent_b;
+};
+
+/// Twice the centre of the circle through q, a and b.
+Point2 doubled_center(const RimTriangle& triangle, const LocalKey& a, const LocalKey& b) {
+    const Point2 u = turned(vector_to(a));
+    const Point2 v = turned(vector_to(b));
+    return {(a.square * v.x - b.square * u.x) * triangle.inverse,
+            (a.square * v.y - b.square * u.y) * triangle.inverse};
+}
+
+}  // namespace
+
+template <bool kAreas>
+void NeighborCavity::grow(const NeighborPlace& place, Key2 at) {
+    const Tin& tin = mesh_.tin();
+    const TriangleMesh& mesh = tin.mesh;
+    const auto key = [&](VertexId v) { return lattice_.scaled(tin.key(v)); };
+    const auto neighbor = [&](VertexId v) {
+        return NaturalNeighbor{internal::localize(key(v), at), v, {}, 0};
+    };
+    // Edges to look across, the next one last; a face's shares wait with the edges that begin at its corners.
+    const HalfEdgeId xy = place.edge;
+    const NaturalNeighbor x = neighbor(mesh.origin(xy));
+    const NaturalNeighbor y = neighbor(mesh.destination(xy));
+    const NaturalNeighbor w = neighbor(mesh.origin(previous(xy)));
+    const FaceShares first = kAreas ? shares_of_face(x.at, y.at, w.at) : FaceShares{};
+    neighbors_.clear();
+    neighbors_.push_back(x);
+    neighbors_.back().share = first.x;
+    stack_.clear();
+    stack_.push_back({previous(xy), x, first.w});
+    stack_.push_back({next(xy), w, first.y});
+    is_on_edge_ = place.kind == NeighborPlace::Kind::Edge;
+    if (is_on_edge_) {
+        neighbors_.back().edge = xy;
+        neighbors_.push_back(y);
+    } else {
+        stack_.push_back({xy, y, 0});
+    }
+    while (!stack_.empty()) {
+        const Pending edge = stack_.back();
+        stack_.pop_back();
+        NaturalNeighbor& a = neighbors_.back();
+        a.share += edge.share;
+        if (!mesh_.is_closed(edge.half_edge)) {
+            const HalfEdgeId across = mesh.twin(edge.half_edge);
+            const NaturalNeighbor s = neighbor(mesh.origin(previous(across)));
+            int is_inside = internal::incircle_local(edge.end.at, a.at, s.at);
+            if (is_inside == internal::kUnsure) {
+                is_inside = incircle(key(edge.end.vertex), key(a.vertex), key(s.vertex), at);
+            }
+            if (is_inside > 0) {
+                const FaceShares shares = kAreas ? shares_of_face(edge.end.at, a.at, s.at) : FaceShares{};
+                a.share += shares.y;
+                (stack_.empty() ? neighbors_.front().share : stack_.back().share) += shares.x;
+                stack_.push_back({previous(across), edge.end, shares.w});
+                stack_.push_back({next(across), s, 0});
+                continue;
+            }
+        }
+        a.edge = edge.half_edge;
+        if (!stack_.empty()) {
+            neighbors_.push_back(edge.end);
+        }
+    }
+}
+
+void NeighborCavity::find(const NeighborPlace& place, Key2 at, ShareKind kind) {
+    if (kind == ShareKind::Sibson) {
+        grow<true>(place, at);
+    } else {
+        grow<false>(place, at);
+    }
+    const std::size_t count = neighbors_.size();
+    for (std::size_t i = is_on_edge_ ? 1 : 0; i < count; ++i) {
+        NaturalNeighbor& a = neighbors_[i];
+        NaturalNeighbor& b = neighbors_[i + 1 == count ? 0 : i + 1];
+        const RimTriangle triangle(a.at, b.at);
+        const bool is_area = kind == ShareKind::Sibson;
+        a.share += is_area ? b.at.square * triangle.cotangent_a : triangle.cotangent_b;
+        b.share += is_area ? a.at.square * triangle.cotangent_b : triangle.cotangent_a;
+    }
+    if (is_on_edge_) {
+        set_edge_shares(kind);
+    }
+}
+
+void NeighborCavity::find_with_gradients(const NeighborPlace& place, Key2 at, ShareKind kind) {
+    find(place, at, kind);
+    gradients_.assign(neighbors_.size(), {0, 0});
+    if (is_on_edge_) {
+        set_edge_gradients(kind);
+    } else if (kind == ShareKind::Sibson) {
+        set_area_gradients();
+    } else {
+        set_side_gradients();
+    }
+}
+
+// The cell's side towards a neighbour moves outward with the place, at each point x of it by x dq / |p_i|:
+// the gradient of a_i is lambda_i times the centre of the side.
+void NeighborCavity::set_area_gradients() {
+    const std::size_t count = neighbors_.size();
+    sides_.assign(count, 0);
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t j = i + 1 == count ? 0 : i + 1;
+        const LocalKey& a = neighbors_[i].at;
+        const LocalKey& b = neighbors_[j].at;
+        const RimTriangle triangle(a, b);
+        const Point2 center = doubled_center(triangle, a, b);
+        sides_[i] += triangle.cotangent_b;
+        sides_[j] += triangle.cotangent_a;
+        add(gradients_[i], 1, center);
+        add(gradients_[j], 1, center);
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+        gradients_[i] = {gradients_[i].x * sides_[i], gradients_[i].y * sides_[i]};
+    }
+}
+
+// With d = a x b, the gradients are that of d: the side a - b, turned; of a (a - b): -(a - b); of b (b - a):
+// -(b - a).
+void NeighborCavity::set_side_gradients() {
+    const std::size_t count = neighbors_.size();
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t j = i + 1 == count ? 0 : i + 1;
+        const RimTriangle triangle(neighbors_[i].at, neighbors_[j].at);
+        const Point2 side = triangle.side;
+        const Point2 of_d{-turned(side).x, -turned(side).y};
+        const double ca = triangle.cotangent_a;
+        const double cb = triangle.cotangent_b;
+        add(gradients_[j], triangle.inverse, {side.x - ca * of_d.x, side.y - ca * of_d.y});
+        add(gradients_[i], -triangle.inverse, {side.x + cb * of_d.x, side.y + cb * of_d.y});
+    }
+}
+
+// From here on: q on the edge between a and b, the first two neighbours.
+
+void NeighborCavity::set_edge_shares(ShareKind kind) {
+    across_.clear();
+    for (NaturalNeighbor& neighbor : neighbors_) {
+        across_.push_back(neighbor.share);
+        neighbor.share = 0;
+    }
+    const double s = std::sqrt(neighbors_[0].at.square);
+    const double t = std::sqrt(neighbors_[1].at.square);
+    neighbors_[0].share = kind == ShareKind::Sibson ? s * t * t : t;
+    neighbors_[1].share = kind == ShareKind::Sibson ? s * s * t : s;
+}
+
+void NeighborCavity::set_edge_gradients(ShareKind kind) {
+    const double s = std::sqrt(neighbors_[0].at.square);
+    const double t = std::sqrt(neighbors_[1].at.square);
+    const Point2 side = vector_between(neighbors_[0].at, neighbors_[1].at);
+    const double length = std::sqrt(square(side));
+    const Point2 along{side.x / length, side.y / length};
+    const Point2 inward{-along.y, along.x};
+    for (std::size_t i = 0; i < neighbors_.size(); ++i) {
+        gradients_[i] = {inward.x * across_[i], inward.y * across_[i]};
+    }
+    const double of_a = kind == ShareKind::Sibson ? t * t - 2 * s * t : -1;
+    const double of_b = kind == ShareKind::Sibson ? 2 * s * t - s * s : 1;
+    add(gradients_[0], of_a, along);
+    add(gradients_[1], of_b, along);
+}
+
+}  // namespace tinwright

@@ -1,0 +1,63 @@
+#ifndef TINWRIGHT_SURFACE_NEIGHBOR_MESH_HPP
+#define TINWRIGHT_SURFACE_NEIGHBOR_MESH_HPP
+
+#include <cstdint>
+#include <memory>
+
+#include "tinwright/mesh/tin.hpp"
+#include "tinwright/surface/sharp_edges.hpp"
+#include "tinwright/surface/surface_place.hpp"
+
+namespace tinwright {
+
+/// A place as natural neighbours need it, in terms of the `NeighborMesh`.
+struct NeighborPlace {
+    enum class Kind : std::uint8_t {
+        Face,   ///< in the closure of the face of `edge`, not at a vertex, nor on a closed edge
+        Edge,   ///< on the closed half-edge `edge`, as its face sees it; or outside the terrain by a rounding
+        Vertex  ///< at the origin of `edge`, between the same closed edges as `edge`'s face
+    };
+    Kind kind = Kind::Face;
+    HalfEdgeId edge{};
+};
+
+/// The Delaunay triangulation of a terrain constrained at its *closed* edges only: those of the border and
+/// the sharp ones. It is unique up to vertices on one circle, and natural neighbours are the same for all of
+/// these.
+///
+/// A TIN that is such a triangulation is used as it is. Another (optimised, or with smooth constrained edges)
+/// is copied, and the copy's edges flipped until it is one [lawson1972]. Flips leave every terrain face slot
+/// within the same closed edges, so a face of the TIN is where the search in the copy begins.
+class NeighborMesh {
+  public:
+    /// `tin` must outlive it. O(n), and O(1) a flip, in practice a few a vertex. Memory: 1 byte a face with
+    /// sharp edges; where a copy is needed, that of a TIN.
+    NeighborMesh(const Tin& tin, const SharpEdges& sharp);
+
+    /// The TIN or the copy, with all closed interior edges constrained; same vertices.
+    [[nodiscard]] const Tin& tin() const { return copy_ ? *copy_ : tin_; }
+    [[nodiscard]] bool is_copy() const { return copy_ != nullptr; }
+    /// The sharp edges of `tin()`.
+    [[nodiscard]] const SharpEdges& sharp() const { return copy_ ? copy_sharp_ : sharp_; }
+    /// Whether no cavity goes on through a terrain face's half-edge.
+    [[nodiscard]] bool is_closed(HalfEdgeId h) const {
+        const TriangleMesh& mesh = tin().mesh;
+        return !mesh.is_terrain(face_of(mesh.twin(h))) || sharp().is_sharp(h);
+    }
+
+    /// `place`: of the TIN given. O(1) for a TIN used as it is.
+    [[nodiscard]] NeighborPlace find(const SurfacePlace& place, const QueryLattice& lattice) const;
+
+  private:
+    [[nodiscard]] NeighborPlace in_copy(const NeighborPlace& place, Key2 at,
+                                        const QueryLattice& lattice) const;
+
+    const Tin& tin_;
+    SharpEdges sharp_;  // of tin_
+    std::unique_ptr<const Tin> copy_;
+    SharpEdges copy_sharp_;
+};
+
+}  // namespace tinwright
+
+#endif
