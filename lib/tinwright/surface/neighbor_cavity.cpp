@@ -1,5 +1,6 @@
 #include "tinwright/surface/neighbor_cavity.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "tinwright/surface/step_vectors.hpp"
@@ -31,12 +32,11 @@ FaceShares shares_of_face(const LocalKey& x, const LocalKey& y, const LocalKey& 
     const Point2 yw = vector_between(y, w);
     const Point2 wx = vector_between(w, x);
     const double inverse = -1 / precise_cross(xy, yw);
-    // The cotangent at a corner times the square of the side across: twice what it adds to both its ends.
-    const double at_x = dot(wx, xy) * inverse * square(yw);
-    const double at_y = dot(xy, yw) * inverse * square(wx);
-    const double at_w = dot(yw, wx) * inverse * square(xy);
-    return {at_w + at_y + 2 * cross(vector_to(x), yw), at_x + at_w + 2 * cross(vector_to(y), wx),
-            at_y + at_x + 2 * cross(vector_to(w), xy)};
+    // The cotangent at the corner across times the difference of the ends' squared distances from q.
+    const double of_xy = dot(yw, wx) * inverse * dot(xy, {x.x + y.x, x.y + y.y});
+    const double of_yw = dot(wx, xy) * inverse * dot(yw, {y.x + w.x, y.y + w.y});
+    const double of_wx = dot(xy, yw) * inverse * dot(wx, {w.x + x.x, w.y + x.y});
+    return {of_xy - of_wx, of_yw - of_xy, of_wx - of_yw};
 }
 
 /// The triangle of the place, q, and two neighbours in turn, a and b.
@@ -135,6 +135,59 @@ void NeighborCavity::find(const NeighborPlace& place, Key2 at, ShareKind kind) {
     }
     if (is_on_edge_) {
         set_edge_shares(kind);
+    } else if (kind == ShareKind::Sibson) {
+        correct_areas();
+    }
+}
+
+// Beside faces a million times longer than wide, areas as large as their squared length cancel, and what
+// rounding leaves of sum a_i p_i = 0 would show on planes. It is taken away by as small relative changes of
+// the areas as do it: by the least squares weighted by the areas. The axes are the direction of a neighbour
+// that counts and that across it, where narrow cavities are narrow, so that little cancels here.
+void NeighborCavity::correct_areas() {
+    constexpr double kEnough = 0x1p-47;
+    double total = 0;
+    double heaviest = 0;
+    double clearance = neighbors_.front().at.square;
+    Point2 rest{0, 0};
+    Point2 u{};
+    for (const NaturalNeighbor& neighbor : neighbors_) {
+        total += neighbor.share;
+        add(rest, neighbor.share, vector_to(neighbor.at));
+        clearance = std::min(clearance, neighbor.at.square);
+        const double weight = std::abs(neighbor.share) * neighbor.at.square;
+        u = weight > heaviest ? vector_to(neighbor.at) : u;
+        heaviest = std::max(weight, heaviest);
+    }
+    if (square(rest) <= kEnough * kEnough * total * total * clearance) {
+        return;
+    }
+    for (int pass = 0; pass < 2; ++pass) {
+        double uu = 0;
+        double uv = 0;
+        double vv = 0;
+        double u_rest = 0;
+        double v_rest = 0;
+        for (const NaturalNeighbor& neighbor : neighbors_) {
+            const double along = dot(u, vector_to(neighbor.at));
+            const double across = precise_cross(u, vector_to(neighbor.at));
+            uu += neighbor.share * along * along;
+            uv += neighbor.share * along * across;
+            vv += neighbor.share * across * across;
+            u_rest += neighbor.share * along;
+            v_rest += neighbor.share * across;
+        }
+        const double determinant = uu * vv - uv * uv;
+        const double by_u = (u_rest * vv - v_rest * uv) / determinant;
+        const double by_v = (v_rest * uu - u_rest * uv) / determinant;
+        if (!std::isfinite(by_u) || !std::isfinite(by_v)) {
+            return;
+        }
+        for (NaturalNeighbor& neighbor : neighbors_) {
+            const double along = dot(u, vector_to(neighbor.at));
+            const double across = precise_cross(u, vector_to(neighbor.at));
+            neighbor.share *= 1 - (by_u * along + by_v * across);
+        }
     }
 }
 

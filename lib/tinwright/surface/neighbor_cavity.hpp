@@ -92,6 +92,7 @@ class NeighborCavity {
 
     template <bool kAreas>
     void grow(const NeighborPlace& place, Key2 at);
+    void correct_areas();
     void set_area_gradients();
     void set_side_gradients();
     void set_edge_shares(ShareKind kind);
