@@ -23,6 +23,7 @@ constexpr std::size_t kBlock = 1024;  // vertices a task
 struct Override {
     HalfEdgeId corner{};
     Point2 gradient{};
+    Point2 of_fan{};  // before sharp edges were kept straight
 };
 
 double dot(Point2 a, Point2 b) { return a.x * b.x + a.y * b.y; }
@@ -123,6 +124,10 @@ struct CornerGradients::State {
     void estimate_all();
     void estimate_other_turns(const std::vector<HalfEdgeId>& starts);
     void add_overrides(const std::vector<Override>& own);
+    [[nodiscard]] const Override* find_override(HalfEdgeId corner) const;
+    [[nodiscard]] std::vector<GradientWeight> stencil(HalfEdgeId corner) const;
+    [[nodiscard]] std::vector<GradientWeight> with_own(HalfEdgeId corner,
+                                                       std::vector<GradientWeight> weights) const;
 
     const Tin& tin;
     SharpEdges sharp;
@@ -160,7 +165,7 @@ std::size_t CornerGradients::State::estimate_around(VertexId v, HalfEdgeId start
         }
         if (!fan.is_closed) {
             visit_fan(tin.mesh, fan, [&](HalfEdgeId h) {
-                own.push_back({h, per_unit(at_corner(of_fan, h))});
+                own.push_back({h, per_unit(at_corner(of_fan, h)), per_unit(of_fan)});
             });
         }
     });
@@ -213,7 +218,7 @@ void CornerGradients::State::estimate_other_turns(const std::vector<HalfEdgeId>&
             const Point2 of_fan = fit.estimate(fan);
             visit_fan(mesh, fan, [&](HalfEdgeId each) {
                 is_done[each.value] = true;
-                own.push_back({each, per_unit(at_corner(of_fan, each))});
+                own.push_back({each, per_unit(at_corner(of_fan, each)), per_unit(of_fan)});
             });
         }
     }
@@ -238,26 +243,48 @@ CornerGradients::CornerGradients(const Tin& tin, const SharpEdges& sharp, Gradie
 
 CornerGradients::~CornerGradients() = default;
 
-Point2 CornerGradients::at(HalfEdgeId corner) const {
-    const State& state = *state_;
-    const VertexId v = state.tin.mesh.origin(corner);
-    if (!state.has_override.empty() && state.has_override[v.value]) {
-        const auto found =
-            std::lower_bound(state.overrides.begin(), state.overrides.end(), corner,
-                             [](const Override& each, HalfEdgeId wanted) { return each.corner < wanted; });
-        if (found != state.overrides.end() && found->corner == corner) {
-            return found->gradient;
-        }
+const Override* CornerGradients::State::find_override(HalfEdgeId corner) const {
+    if (has_override.empty() || !has_override[tin.mesh.origin(corner).value]) {
+        return nullptr;
     }
-    return state.gradient[v.value];
+    const auto found =
+        std::lower_bound(overrides.begin(), overrides.end(), corner,
+                         [](const Override& each, HalfEdgeId wanted) { return each.corner < wanted; });
+    return found != overrides.end() && found->corner == corner ? &*found : nullptr;
+}
+
+/// Weights of the other vertices in a fan's gradient, per step.
+std::vector<GradientWeight> CornerGradients::State::stencil(HalfEdgeId corner) const {
+    GradientFit fit(tin, sharp, method);
+    const std::span<const GradientWeight> found = fit.find_stencil(find_fan(tin.mesh, sharp, corner));
+    return {found.begin(), found.end()};
+}
+
+/// In units, with the weight of the vertex itself, which makes their sum zero.
+std::vector<GradientWeight> CornerGradients::State::with_own(HalfEdgeId corner,
+                                                             std::vector<GradientWeight> weights) const {
+    Point2 own;
+    for (GradientWeight& each : weights) {
+        each.weight = per_unit(each.weight);
+        own = {own.x - each.weight.x, own.y - each.weight.y};
+    }
+    weights.push_back({tin.mesh.origin(corner), own});
+    return merged(std::move(weights));
+}
+
+Point2 CornerGradients::at(HalfEdgeId corner) const {
+    const Override* own = state_->find_override(corner);
+    return own != nullptr ? own->gradient : state_->gradient[state_->tin.mesh.origin(corner).value];
+}
+
+Point2 CornerGradients::of_fan(HalfEdgeId corner) const {
+    const Override* own = state_->find_override(corner);
+    return own != nullptr ? own->of_fan : state_->gradient[state_->tin.mesh.origin(corner).value];
 }
 
 std::vector<GradientWeight> CornerGradients::weights(HalfEdgeId corner) const {
     const State& state = *state_;
-    const TriangleMesh& mesh = state.tin.mesh;
-    GradientFit fit(state.tin, state.sharp, state.method);
-    const std::span<const GradientWeight> stencil = fit.find_stencil(find_fan(mesh, state.sharp, corner));
-    std::vector<GradientWeight> weights(stencil.begin(), stencil.end());
+    std::vector<GradientWeight> weights = state.stencil(corner);
     const CornerEdges edges(state.tin, state.sharp, corner);
     if (edges.has_sharp()) {
         for (GradientWeight& each : weights) {
@@ -271,13 +298,11 @@ std::vector<GradientWeight> CornerGradients::weights(HalfEdgeId corner) const {
             }
         }
     }
-    Point2 own;
-    for (GradientWeight& each : weights) {
-        each.weight = state.per_unit(each.weight);
-        own = {own.x - each.weight.x, own.y - each.weight.y};
-    }
-    weights.push_back({mesh.origin(corner), own});
-    return merged(std::move(weights));
+    return state.with_own(corner, std::move(weights));
+}
+
+std::vector<GradientWeight> CornerGradients::fan_weights(HalfEdgeId corner) const {
+    return state_->with_own(corner, state_->stencil(corner));
 }
 
 }  // namespace tinwright

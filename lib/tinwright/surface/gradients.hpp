@@ -52,6 +52,10 @@ class CornerGradients {
     /// The same gradient as a sum of weights times z, each vertex once; computed anew.
     [[nodiscard]] std::vector<GradientWeight> weights(HalfEdgeId corner) const;
 
+    /// The same without sharp edges kept straight: as estimated, one for all faces between two walls.
+    [[nodiscard]] Point2 of_fan(HalfEdgeId corner) const;
+    [[nodiscard]] std::vector<GradientWeight> fan_weights(HalfEdgeId corner) const;
+
   private:
     struct State;
     std::unique_ptr<const State> state_;

@@ -114,7 +114,7 @@ void NeighborBlend::visit_tilts(const NeighborCavity& cavity, std::size_t i, con
 NeighborBlend::Tangent NeighborBlend::tangent(const NeighborCavity& cavity, std::size_t i,
                                               double base) const {
     const NaturalNeighbor& neighbor = cavity.neighbors()[i];
-    const Point2 gradient = gradients_.at(neighbor.edge);
+    const Point2 gradient = gradients_.of_fan(neighbor.edge);
     const double step = lattice_.step();
     const Point2 slope{gradient.x * step, gradient.y * step};
     const double above = z(neighbor.vertex) - base;
@@ -200,7 +200,7 @@ void NeighborBlend::find_weights(const NeighborCavity& cavity, std::vector<Verte
             weights.push_back({all[i].vertex, -share});
             add(of_gradient, -share, edge);
         });
-        for (const GradientWeight& part : gradients_.weights(all[i].edge)) {
+        for (const GradientWeight& part : gradients_.fan_weights(all[i].edge)) {
             weights.push_back({part.vertex, lattice_.step() * dot(of_gradient, part.weight)});
         }
     }
