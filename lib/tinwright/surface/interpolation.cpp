@@ -50,7 +50,7 @@ std::unique_ptr<Interpolator> make_method(const Tin& tin, const SharpEdges& shar
 }  // namespace
 
 bool is_bounded(InterpolationMethod method) {
-    // Natural neighbours' weights may be negative beside sharp edges.
+    // Sibson's and Laplace's surfaces are but for rounding.
     return method == InterpolationMethod::Linear || method == InterpolationMethod::Nearest ||
            method == InterpolationMethod::CloughTocherLimit;
 }
