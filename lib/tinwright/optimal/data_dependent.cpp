@@ -162,7 +162,7 @@ bool Flipper::is_in_order(const Quad& quad) {
     const int order = *options_.delaunay_order;
     const HalfEdgeId at_c = previous(quad.h);
     const HalfEdgeId at_d = previous(quad.t);
-    return order_->is_at_most(tin_, {quad.h, at_d, at_c}, order) &&
+    return order_->is_at_most(tin_, {quad.h, at_d, at_c}, order) ||
            order_->is_at_most(tin_, {quad.t, at_c, at_d}, order);
 }
 

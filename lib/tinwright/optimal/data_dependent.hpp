@@ -28,9 +28,10 @@ inline constexpr std::array kCreaseMeasures{
 
 struct DataDependentOptions {
     CreaseMeasure measure = CreaseMeasure::NormalAngle;
-    /// A flip is made only if either new face has at most so many vertices inside its circle
-    /// [gudmundsson2002], which from a Delaunay TIN makes a Delaunay TIN of this order; empty: whatever the
-    /// faces' shape. At least 0: then only co-circular vertices get other edges.
+    /// A flip is made only if the new edge is a Delaunay edge of this order: some circle through its ends has
+    /// at most so many vertices inside [gudmundsson2002]. Of all circles those two are looked at that pass
+    /// through an end of the old edge as well. At least 0: then only co-circular vertices get other edges.
+    /// Empty: whatever the faces' shape.
     std::optional<int> delaunay_order = 3;
     std::optional<double> budget_seconds = {};  ///< stop after this time
     Progress progress = {};                     ///< asked often; false stops the work like a budget

@@ -8,22 +8,22 @@
 
 namespace tinwright::internal {
 
-/// How far a face is from Delaunay: its order is the number of vertices inside its circle
-/// [gudmundsson2002], decided exactly. Vertices on the circle do not count.
+/// Counts the vertices inside a face's circle, exactly; those on it do not count. An edge of a face whose
+/// circle has k of them is a Delaunay edge of order k [gudmundsson2002].
 ///
-/// Vertices are looked for along the edges of the TIN at the start, from the corners of the face, without
-/// passing through a constrained edge or beside one from one side to the other, and no farther than the
-/// circle. Of a Delaunay TIN these are all: its edges lead from a corner to every vertex inside, within the
-/// circle. Of a constrained one they are those that the face could have as neighbours; what is behind a
-/// breakline that divides the disk is none of them.
+/// Vertices are looked for along the edges of the TIN at the start, from the corners of the face, no farther
+/// than the circle and not from one side of a constrained edge to the other. Of a Delaunay TIN these are all:
+/// its edges lead from a corner to every vertex inside, within the circle. Of a constrained one they are
+/// those that the face could have as neighbours; what is behind a breakline that divides the disk is none of
+/// them.
 class DelaunayOrder {
   public:
     /// Keeps a copy of the mesh at the start. O(n), 70 bytes a vertex.
     explicit DelaunayOrder(const Tin& start);
 
-    /// Whether the order of a face with these corners is `order` at most. `corner`: half-edges of `now` that
-    /// start at the face's corners, counter-clockwise, on its side of constrained edges. `now` has the
-    /// vertices and constrained edges of the start.
+    /// Whether the circle of a face with these corners has `order` vertices inside at most. `corner`:
+    /// half-edges of `now` that start at the face's corners, counter-clockwise, on its side of constrained
+    /// edges. `now` has the vertices and constrained edges of the start.
     bool is_at_most(const Tin& now, const std::array<HalfEdgeId, 3>& corner, int order);
 
   private:
