@@ -1,0 +1,90 @@
+#include "tinwright/surface/spline_store.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tinwright {
+
+SplineBlock::SplineBlock(SplineFitter& fitter, std::uint32_t first, std::uint32_t last) : first_(first) {
+    splines_.reserve(last - first);
+    starts_.reserve(last - first);
+    for (std::uint32_t v = first; v < last; ++v) {
+        starts_.push_back(static_cast<std::uint32_t>(nodes_.size()));
+        splines_.push_back(fitter.fit({v}, nodes_, coefficients_));
+    }
+    nodes_.shrink_to_fit();
+    coefficients_.shrink_to_fit();
+}
+
+SplineBlock::View SplineBlock::view(VertexId v) const {
+    const std::uint32_t i = v.value - first_;
+    const VertexSpline& spline = splines_[i];
+    return {spline, std::span(nodes_).subspan(starts_[i], spline.node_count),
+            std::span(coefficients_).subspan(starts_[i], spline.node_count)};
+}
+
+std::size_t SplineBlock::bytes() const {
+    return sizeof(*this) + splines_.capacity() * sizeof(VertexSpline) +
+           starts_.capacity() * sizeof(std::uint32_t) + nodes_.capacity() * sizeof(VertexId) +
+           coefficients_.capacity() * sizeof(double);
+}
+
+SplineStore::SplineStore(const SplineSources& sources)
+    : tin_(sources.tin),
+      places_((sources.tin.vertex_count() + SplineBlock::kBlock - 1) / SplineBlock::kBlock),
+      // A row passes about the square root of the blocks' number; threads read rows apart from each other.
+      limit_(256 + 16 * static_cast<std::size_t>(std::sqrt(static_cast<double>(places_.size())))) {}
+
+std::shared_ptr<const SplineBlock> SplineStore::block_of(VertexId v, SplineFitter& fitter) {
+    const std::uint32_t number = v.value / SplineBlock::kBlock;
+    Place& place = places_[number];
+    std::shared_ptr<const SplineBlock> block;
+    bool is_regretted = false;
+    {
+        const std::lock_guard lock(place.mutex);
+        place.used.store(fitted_.load(std::memory_order_relaxed), std::memory_order_relaxed);
+        if (place.block) {
+            return place.block;
+        }
+        const std::uint32_t first = number * SplineBlock::kBlock;
+        const auto last = static_cast<std::uint32_t>(
+            std::min<std::size_t>(first + std::size_t{SplineBlock::kBlock}, tin_.vertex_count()));
+        block = std::make_shared<const SplineBlock>(fitter, first, last);
+        place.block = block;
+        is_regretted = place.was_dropped;
+        fitted_.fetch_add(1, std::memory_order_relaxed);
+    }
+    drop_oldest(number, is_regretted);
+    return block;
+}
+
+void SplineStore::drop_oldest(std::uint32_t fitted, bool is_regretted) {
+    const std::lock_guard lock(held_mutex_);
+    held_.push_back(fitted);
+    limit_ += is_regretted ? kRegret : 0;
+    if (held_.size() <= limit_) {
+        return;
+    }
+    const auto oldest = std::min_element(held_.begin(), held_.end(), [&](std::uint32_t a, std::uint32_t b) {
+        return places_[a].used.load(std::memory_order_relaxed) <
+               places_[b].used.load(std::memory_order_relaxed);
+    });
+    Place& place = places_[*oldest];
+    const std::unique_lock of_place(place.mutex, std::try_to_lock);
+    if (of_place.owns_lock()) {
+        place.block.reset();
+        place.was_dropped = true;
+        *oldest = held_.back();
+        held_.pop_back();
+    }
+}
+
+std::size_t SplineStore::bytes() const {
+    std::size_t sum = places_.size() * sizeof(Place);
+    for (const Place& place : places_) {
+        sum += place.block ? place.block->bytes() : 0;
+    }
+    return sum;
+}
+
+}  // namespace tinwright
