@@ -36,7 +36,7 @@ std::span<const GradientWeight> GradientFit::find_stencil(const VertexFan& fan) 
     const Tie tie = find_tie(fan);
     if (method_ == GradientMethod::Octant) {
         search_.find_octants(fan, kPerOctant, false, neighbors_);
-        weigh_by_distance();
+        weigh_by_distance(Model::Quadric);
         if (fit(Model::Quadric, tie) && magnification(tin_.mesh.origin(fan.first)) <= kMostMagnification) {
             return stencil_;
         }
@@ -48,7 +48,7 @@ std::span<const GradientWeight> GradientFit::find_stencil(const VertexFan& fan) 
             return stencil_;
         }
     }
-    weigh_by_distance();
+    weigh_by_distance(Model::Plane);
     fit(Model::Plane, tie);
     return stencil_;
 }
@@ -96,10 +96,14 @@ GradientFit::Tie GradientFit::find_tie(const VertexFan& fan) const {
             2};
 }
 
-void GradientFit::weigh_by_distance() {
+/// Residuals count by the inverse of the distance, so that slopes are fitted. What a quadric leaves out of a
+/// smooth surface grows with the cube of the distance, but what is rough about a surface does not: in
+/// between.
+void GradientFit::weigh_by_distance(Model model) {
     row_weight_.clear();
     for (const VertexNeighbor& neighbor : neighbors_) {
-        row_weight_.push_back(1 / std::sqrt(neighbor.distance2));
+        const double distance = std::sqrt(neighbor.distance2);
+        row_weight_.push_back(1 / (model == Model::Quadric ? distance * std::sqrt(distance) : distance));
     }
 }
 

@@ -47,7 +47,7 @@ class GradientFit {
 
     [[nodiscard]] Tie find_tie(const VertexFan& fan) const;
     bool fit(Model model, const Tie& tie);
-    void weigh_by_distance();
+    void weigh_by_distance(Model model);
     void weigh_by_cells();
     void make_columns(Model model, const Tie& tie, double scale);
     double subtract_others(unsigned j, double before);
