@@ -6,6 +6,7 @@
 #include "tinwright/io/gdal_session.hpp"
 
 #include "command_check.hpp"
+#include "command_contour.hpp"
 #include "command_grid.hpp"
 #include "command_info.hpp"
 #include "command_tin.hpp"
@@ -23,6 +24,8 @@ std::unique_ptr<Command> make_command() {
 const std::array kCommands{
     CommandEntry{"tin", "triangulates samples and writes the TIN", &make_command<CommandTin>},
     CommandEntry{"grid", "turns samples, or an existing TIN, into a raster", &make_command<CommandGrid>},
+    CommandEntry{"contour", "draws contours of samples, or of an existing TIN",
+                 &make_command<CommandContour>},
     CommandEntry{"info", "tells what samples or a TIN are like", &make_command<CommandInfo>},
     CommandEntry{"check", "audits TIN files", &make_command<CommandCheck>},
 };

@@ -70,6 +70,9 @@ JsonValue timings_json(const JobReport& report, const Surface& surface) {
         timings.set("interpolate", report.raster->written.interpolate_seconds);
         timings.set("write", report.raster->written.write_seconds);
     } else if (!report.outputs.empty()) {
+        if (report.contours) {
+            timings.set("contour", report.contours->seconds);
+        }
         timings.set("write", report.write_seconds);
     }
     return timings;
@@ -194,6 +197,7 @@ std::string times_line(const JobReport& report, const Surface& surface) {
         times += ", interpolate " + fixed(report.raster->written.interpolate_seconds, 2) + ", write " +
                  fixed(report.raster->written.write_seconds, 2);
     } else if (!report.outputs.empty()) {
+        times += report.contours ? ", contour " + fixed(report.contours->seconds, 2) : "";
         times += ", write " + fixed(report.write_seconds, 2);
     }
     return times;
@@ -260,6 +264,9 @@ JsonValue make_json(const JobReport& report, const Surface& surface) {
     if (report.raster) {
         json.set("raster", raster_json(*report.raster));
     }
+    if (report.contours) {
+        json.set("contours", contours_json(*report.contours));
+    }
     json.set("outputs", JsonValue::array_of(report.outputs));
     json.set("timings", timings_json(report, surface));
     return json.set("peak_memory_bytes", peak_memory_bytes());
@@ -293,6 +300,12 @@ std::string report_text(const JobReport& report, const Surface& surface, const R
         if (report.raster->method != "linear" ||
             report.raster->written.bands != std::vector<std::string>{"elevation"}) {
             add("method", method_line(*report.raster));
+        }
+    }
+    if (report.contours) {
+        add("contours", contours_line(*report.contours));
+        if (report.contours->tracing) {
+            add("traced", tracing_line(*report.contours));
         }
     }
     for (std::size_t i = 0; i < report.outputs.size(); ++i) {

@@ -8,6 +8,7 @@
 
 #include "tinwright/io/write_grid.hpp"
 
+#include "contour_report.hpp"
 #include "json_value.hpp"
 #include "surface_input.hpp"
 
@@ -27,6 +28,7 @@ struct JobReport {
     std::string domain;
     std::string duplicate_policy;
     std::optional<RasterReport> raster;
+    std::optional<ContourReport> contours;
     std::vector<std::string> outputs;
     std::string output_driver;
     double write_seconds = 0;

@@ -46,7 +46,29 @@ void append_curve(std::string& text, const OGRSimpleCurve& curve) {
     text += '(';
     for (int i = 0; i < curve.getNumPoints(); ++i) {
         text += i == 0 ? "" : ",";
-        append_point(text, curve.getX(i), curve.getY(i), curve.getZ(i));
+        if (curve.Is3D() != 0) {
+            append_point(text, curve.getX(i), curve.getY(i), curve.getZ(i));
+        } else {
+            append_number(text, curve.getX(i));
+            text += ' ';
+            append_number(text, curve.getY(i));
+        }
+    }
+    text += ')';
+}
+
+void append_polygons(std::string& text, const OGRMultiPolygon& polygons) {
+    const char* before_polygon = "(";
+    for (const OGRPolygon* const polygon : polygons) {
+        text += before_polygon;
+        const char* before_ring = "(";
+        for (const OGRLinearRing* const ring : *polygon) {
+            text += before_ring;
+            append_curve(text, *ring);
+            before_ring = ",";
+        }
+        text += ')';
+        before_polygon = ",";
     }
     text += ')';
 }
@@ -69,6 +91,10 @@ std::string exact_wkt(const OGRGeometry& geometry) {
             text = "POLYGON Z (";
             append_curve(text, *geometry.toPolygon()->getExteriorRing());
             return text + ")";
+        case wkbMultiPolygon:
+            text = "MULTIPOLYGON ";
+            append_polygons(text, *geometry.toMultiPolygon());
+            return text;
         default: {
             text = "TIN Z (";
             const OGRTriangulatedSurface& surface = *geometry.toTriangulatedSurface();
