@@ -40,6 +40,8 @@ void run_contour(const Settings& settings);
 /// Errors of surfaces where elevations are known: of data sets, and on functions as the samples get denser.
 void run_accuracy(const Settings& settings);
 void run_convergence(const Settings& settings);
+/// Rasters by natural neighbours.
+void run_natural_neighbor(const Settings& settings);
 
 }  // namespace tinwright_benchmarks
 

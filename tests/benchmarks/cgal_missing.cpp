@@ -1,5 +1,6 @@
 #include <stdexcept>
 
+#include "benchmarks/cgal_neighbor_peer.hpp"
 #include "benchmarks/cgal_peer.hpp"
 
 namespace tinwright_benchmarks {
@@ -21,6 +22,11 @@ void measure_cgal_constrained(const Network& /*network*/, Meter& /*meter*/) {
 }
 
 void measure_cgal_conforming(const Network& /*network*/, Meter& /*meter*/) {
+    throw std::runtime_error("built without CGAL");
+}
+
+void measure_cgal_natural_neighbors(std::span<const tinwright::Point3> /*points*/,
+                                    const tinwright::GridGeometry& /*grid*/, Meter& /*meter*/) {
     throw std::runtime_error("built without CGAL");
 }
 

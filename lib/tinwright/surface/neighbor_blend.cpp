@@ -18,9 +18,6 @@ using steps::turned;
 using steps::vector_between;
 using steps::vector_to;
 
-std::size_t next_of(std::size_t i, std::size_t count) { return i + 1 == count ? 0 : i + 1; }
-std::size_t previous_of(std::size_t i, std::size_t count) { return (i == 0 ? count : i) - 1; }
-
 /// The sums of the same letters.
 struct BlendSums {
     double d = 0;
@@ -53,6 +50,9 @@ void NeighborBlend::look(const NeighborCavity& cavity) {
         for (std::size_t i = 0; i < cavity.neighbors().size(); ++i) {
             seen_.push_back(see(cavity, i));
         }
+        for (std::size_t i = 0; i < seen_.size(); ++i) {
+            seen_[cavity.neighbors()[i].next].before = i;
+        }
     }
 }
 
@@ -68,7 +68,7 @@ NeighborBlend::Seen NeighborBlend::see(const NeighborCavity& cavity, std::size_t
     const Key2 apex = lattice_.scaled(tin.key(tin.mesh.origin(previous(all[i].edge))));
     const Key2 a = lattice_.scaled(tin.key(all[i].vertex));
     const internal::LocalKey& at_a = all[i].at;
-    const internal::LocalKey& at_b = all[next_of(i, all.size())].at;
+    const internal::LocalKey& at_b = all[all[i].next].at;
     const Point2 to_a{a.x - apex.x, a.y - apex.y};
     const Point2 side = vector_between(at_a, at_b);
     const Point2 to_b{to_a.x + side.x, to_a.y + side.y};
@@ -100,14 +100,13 @@ void NeighborBlend::visit_tilts(const NeighborCavity& cavity, std::size_t i, con
     if (seen_.empty()) {
         return;
     }
-    const std::size_t count = cavity.neighbors().size();
     const Seen& out = seen_[i];
-    const Seen& in = seen_[previous_of(i, count)];
+    const Seen& in = seen_[out.before];
     if (out.is_sharp) {
-        visit(next_of(i, count), tilt(out, in));
+        visit(cavity.neighbors()[i].next, tilt(out, in));
     }
     if (in.is_sharp) {
-        visit(previous_of(i, count), tilt(in, out));
+        visit(out.before, tilt(in, out));
     }
 }
 

@@ -39,7 +39,8 @@ class NeighborBlend {
     /// The sharp rim edge from a neighbour to another: l and its gradient per step.
     struct Seen {
         bool is_sharp = false;
-        bool is_here = false;  // the place is on it: l is infinite
+        bool is_here = false;    // the place is on it: l is infinite
+        std::size_t before = 0;  // the neighbour whose edge ends where this one begins
         double l = 0;
         Point2 gradient{};
     };

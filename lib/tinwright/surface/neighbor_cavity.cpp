@@ -63,57 +63,61 @@ Point2 doubled_center(const RimTriangle& triangle, const LocalKey& a, const Loca
 
 }  // namespace
 
+NeighborCavity::NeighborCavity(const NeighborMesh& mesh, const QueryLattice& lattice)
+    : tin_(mesh.tin()), sharp_(mesh.sharp()), lattice_(lattice) {}
+
+std::uint32_t NeighborCavity::add_neighbor(VertexId v, HalfEdgeId edge, Key2 at) {
+    NaturalNeighbor& added = neighbors_.emplace_back();
+    added.at = internal::localize(lattice_.scaled(tin_.key(v)), at);
+    added.vertex = v;
+    added.edge = edge;
+    return static_cast<std::uint32_t>(neighbors_.size() - 1);
+}
+
+/// Whether the place is strictly inside the circle of the face beyond an edge that runs from a to b.
+bool NeighborCavity::is_inside(const NaturalNeighbor& a, const NaturalNeighbor& b, VertexId beyond,
+                               Key2 at) const {
+    const auto key = [&](VertexId v) { return lattice_.scaled(tin_.key(v)); };
+    const LocalKey s = internal::localize(key(beyond), at);
+    const int sign = internal::incircle_local(b.at, a.at, s);
+    return (sign != internal::kUnsure ? sign : incircle(key(b.vertex), key(a.vertex), key(beyond), at)) > 0;
+}
+
 template <bool kAreas>
 void NeighborCavity::grow(const NeighborPlace& place, Key2 at) {
-    const Tin& tin = mesh_.tin();
-    const TriangleMesh& mesh = tin.mesh;
-    const auto key = [&](VertexId v) { return lattice_.scaled(tin.key(v)); };
-    const auto neighbor = [&](VertexId v) {
-        return NaturalNeighbor{internal::localize(key(v), at), v, {}, 0};
-    };
-    // Edges to look across, the next one last; a face's shares wait with the edges that begin at its corners.
-    const HalfEdgeId xy = place.edge;
-    const NaturalNeighbor x = neighbor(mesh.origin(xy));
-    const NaturalNeighbor y = neighbor(mesh.destination(xy));
-    const NaturalNeighbor w = neighbor(mesh.origin(previous(xy)));
-    const FaceShares first = kAreas ? shares_of_face(x.at, y.at, w.at) : FaceShares{};
-    neighbors_.clear();
-    neighbors_.push_back(x);
-    neighbors_.back().share = first.x;
-    stack_.clear();
-    stack_.push_back({previous(xy), x, first.w});
-    stack_.push_back({next(xy), w, first.y});
-    is_on_edge_ = place.kind == NeighborPlace::Kind::Edge;
-    if (is_on_edge_) {
-        neighbors_.back().edge = xy;
-        neighbors_.push_back(y);
-    } else {
-        stack_.push_back({xy, y, 0});
-    }
-    while (!stack_.empty()) {
-        const Pending edge = stack_.back();
-        stack_.pop_back();
-        NaturalNeighbor& a = neighbors_.back();
-        a.share += edge.share;
-        if (!mesh_.is_closed(edge.half_edge)) {
-            const HalfEdgeId across = mesh.twin(edge.half_edge);
-            const NaturalNeighbor s = neighbor(mesh.origin(previous(across)));
-            int is_inside = internal::incircle_local(edge.end.at, a.at, s.at);
-            if (is_inside == internal::kUnsure) {
-                is_inside = incircle(key(edge.end.vertex), key(a.vertex), key(s.vertex), at);
-            }
-            if (is_inside > 0) {
-                const FaceShares shares = kAreas ? shares_of_face(edge.end.at, a.at, s.at) : FaceShares{};
-                a.share += shares.y;
-                (stack_.empty() ? neighbors_.front().share : stack_.back().share) += shares.x;
-                stack_.push_back({previous(across), edge.end, shares.w});
-                stack_.push_back({next(across), s, 0});
-                continue;
-            }
+    const TriangleMesh& mesh = tin_.mesh;
+    const auto add_shares = [&](std::uint32_t x, std::uint32_t y, std::uint32_t w) {
+        if constexpr (kAreas) {
+            const FaceShares shares = shares_of_face(neighbors_[x].at, neighbors_[y].at, neighbors_[w].at);
+            neighbors_[x].share += shares.x;
+            neighbors_[y].share += shares.y;
+            neighbors_[w].share += shares.w;
         }
-        a.edge = edge.half_edge;
-        if (!stack_.empty()) {
-            neighbors_.push_back(edge.end);
+    };
+    // The rim is a ring of neighbours, each of which knows the next one and the half-edge there.
+    neighbors_.clear();
+    HalfEdgeId edge = place.edge;
+    for (std::uint32_t i = 0; i < 3; ++i, edge = next(edge)) {
+        add_neighbor(mesh.origin(edge), edge, at);
+        neighbors_[i].next = i == 2 ? 0 : i + 1;
+    }
+    add_shares(0, 1, 2);
+    is_on_edge_ = place.kind == NeighborPlace::Kind::Edge;
+    std::uint32_t a = is_on_edge_ ? 1 : 0;
+    for (bool is_around = false; !is_around;) {
+        const std::uint32_t b = neighbors_[a].next;
+        const HalfEdgeId across = mesh.twin(neighbors_[a].edge);
+        const VertexId beyond = mesh.origin(previous(across));
+        if (mesh.is_terrain(face_of(across)) && !sharp_.is_sharp(across) &&
+            is_inside(neighbors_[a], neighbors_[b], beyond, at)) {
+            const std::uint32_t s = add_neighbor(beyond, previous(across), at);
+            add_shares(b, a, s);
+            neighbors_[s].next = b;
+            neighbors_[a].next = s;
+            neighbors_[a].edge = next(across);
+        } else {
+            a = b;
+            is_around = b == 0;
         }
     }
 }
@@ -124,10 +128,9 @@ void NeighborCavity::find(const NeighborPlace& place, Key2 at, ShareKind kind) {
     } else {
         grow<false>(place, at);
     }
-    const std::size_t count = neighbors_.size();
-    for (std::size_t i = is_on_edge_ ? 1 : 0; i < count; ++i) {
+    for (std::size_t i = is_on_edge_ ? 1 : 0; i < neighbors_.size(); ++i) {
         NaturalNeighbor& a = neighbors_[i];
-        NaturalNeighbor& b = neighbors_[i + 1 == count ? 0 : i + 1];
+        NaturalNeighbor& b = neighbors_[a.next];
         const RimTriangle triangle(a.at, b.at);
         const bool is_area = kind == ShareKind::Sibson;
         a.share += is_area ? b.at.square * triangle.cotangent_a : triangle.cotangent_b;
@@ -209,7 +212,7 @@ void NeighborCavity::set_area_gradients() {
     const std::size_t count = neighbors_.size();
     sides_.assign(count, 0);
     for (std::size_t i = 0; i < count; ++i) {
-        const std::size_t j = i + 1 == count ? 0 : i + 1;
+        const std::size_t j = neighbors_[i].next;
         const LocalKey& a = neighbors_[i].at;
         const LocalKey& b = neighbors_[j].at;
         const RimTriangle triangle(a, b);
@@ -229,7 +232,7 @@ void NeighborCavity::set_area_gradients() {
 void NeighborCavity::set_side_gradients() {
     const std::size_t count = neighbors_.size();
     for (std::size_t i = 0; i < count; ++i) {
-        const std::size_t j = i + 1 == count ? 0 : i + 1;
+        const std::size_t j = neighbors_[i].next;
         const RimTriangle triangle(neighbors_[i].at, neighbors_[j].at);
         const Point2 side = triangle.side;
         const Point2 of_d{-turned(side).x, -turned(side).y};

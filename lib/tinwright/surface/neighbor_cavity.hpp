@@ -2,6 +2,7 @@
 #define TINWRIGHT_SURFACE_NEIGHBOR_CAVITY_HPP
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -59,9 +60,10 @@ namespace tinwright {
 
 struct NaturalNeighbor {
     internal::LocalKey at;  ///< seen from the place, steps; exact
+    double share = 0;       ///< not negative up to rounding; the sum of all is positive
     VertexId vertex{};
-    HalfEdgeId edge{};  ///< to the next neighbour, of a face of the cavity
-    double share = 0;   ///< not negative up to rounding; the sum of all is positive
+    HalfEdgeId edge{};     ///< to the next neighbour counter-clockwise, of a face of the cavity
+    std::uint32_t next{};  ///< index of that neighbour
 };
 
 enum class ShareKind : std::uint8_t { Sibson, Laplace };
@@ -69,14 +71,14 @@ enum class ShareKind : std::uint8_t { Sibson, Laplace };
 /// Finds them for one place after another; keeps its arrays.
 class NeighborCavity {
   public:
-    NeighborCavity(const NeighborMesh& mesh, const QueryLattice& lattice) : mesh_(mesh), lattice_(lattice) {}
+    /// Both must outlive it.
+    NeighborCavity(const NeighborMesh& mesh, const QueryLattice& lattice);
 
     /// `place`: not at a vertex. O(k) for k neighbours, 6 on average.
     void find(const NeighborPlace& place, Key2 at, ShareKind kind);
     /// As `find`, with `gradients()`.
     void find_with_gradients(const NeighborPlace& place, Key2 at, ShareKind kind);
 
-    /// Counter-clockwise.
     [[nodiscard]] std::span<const NaturalNeighbor> neighbors() const { return neighbors_; }
     /// Of the shares, along x and y, per step.
     [[nodiscard]] std::span<const Point2> gradients() const { return gradients_; }
@@ -84,12 +86,9 @@ class NeighborCavity {
     [[nodiscard]] bool is_on_edge() const { return is_on_edge_; }
 
   private:
-    struct Pending {
-        HalfEdgeId half_edge{};
-        NaturalNeighbor end;
-        double share = 0;  // of its origin
-    };
-
+    std::uint32_t add_neighbor(VertexId v, HalfEdgeId edge, Key2 at);
+    [[nodiscard]] bool is_inside(const NaturalNeighbor& a, const NaturalNeighbor& b, VertexId beyond,
+                                 Key2 at) const;
     template <bool kAreas>
     void grow(const NeighborPlace& place, Key2 at);
     void correct_areas();
@@ -98,11 +97,11 @@ class NeighborCavity {
     void set_edge_shares(ShareKind kind);
     void set_edge_gradients(ShareKind kind);
 
-    const NeighborMesh& mesh_;
+    const Tin& tin_;
+    const SharpEdges& sharp_;
     const QueryLattice& lattice_;
     std::vector<NaturalNeighbor> neighbors_;
     std::vector<Point2> gradients_;
-    std::vector<Pending> stack_;
     std::vector<double> sides_;   // sums of cotangents
     std::vector<double> across_;  // for a place on an edge: derivatives of the shares across it
     bool is_on_edge_ = false;

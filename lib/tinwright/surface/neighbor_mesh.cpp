@@ -226,7 +226,7 @@ NeighborMesh::NeighborMesh(const Tin& tin, const SharpEdges& sharp) : tin_(tin),
     copy_ = std::move(copy);
 }
 
-NeighborPlace NeighborMesh::find(const SurfacePlace& place, const QueryLattice& lattice) const {
+NeighborPlace NeighborMesh::find_exactly(const SurfacePlace& place, const QueryLattice& lattice) const {
     const NeighborPlace here = walk(tin_, sharp_, lattice, place);
     return copy_ ? in_copy(here, place.at, lattice) : here;
 }

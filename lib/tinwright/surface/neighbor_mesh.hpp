@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 
+#include "tinwright/geometry/predicates_internal.hpp"
 #include "tinwright/mesh/tin.hpp"
 #include "tinwright/surface/sharp_edges.hpp"
 #include "tinwright/surface/surface_place.hpp"
@@ -46,9 +47,24 @@ class NeighborMesh {
     }
 
     /// `place`: of the TIN given. O(1) for a TIN used as it is.
-    [[nodiscard]] NeighborPlace find(const SurfacePlace& place, const QueryLattice& lattice) const;
+    [[nodiscard]] NeighborPlace find(const SurfacePlace& place, const QueryLattice& lattice) const {
+        return !copy_ && is_clearly_inside(place, lattice)
+                   ? NeighborPlace{NeighborPlace::Kind::Face, half_edge(place.face, 0)}
+                   : find_exactly(place, lattice);
+    }
 
   private:
+    [[nodiscard]] bool is_clearly_inside(const SurfacePlace& place, const QueryLattice& lattice) const {
+        const auto corner = [&](unsigned i) {
+            return internal::localize(lattice.scaled(tin_.key(tin_.mesh.vertex(place.face, i))), place.at);
+        };
+        const internal::LocalKey a = corner(0);
+        const internal::LocalKey b = corner(1);
+        const internal::LocalKey c = corner(2);
+        return internal::orient2d_local(a, b) == 1 && internal::orient2d_local(b, c) == 1 &&
+               internal::orient2d_local(c, a) == 1;
+    }
+    [[nodiscard]] NeighborPlace find_exactly(const SurfacePlace& place, const QueryLattice& lattice) const;
     [[nodiscard]] NeighborPlace in_copy(const NeighborPlace& place, Key2 at,
                                         const QueryLattice& lattice) const;
 
