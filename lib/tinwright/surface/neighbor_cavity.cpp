@@ -64,62 +64,78 @@ Point2 doubled_center(const RimTriangle& triangle, const LocalKey& a, const Loca
 }  // namespace
 
 NeighborCavity::NeighborCavity(const NeighborMesh& mesh, const QueryLattice& lattice)
-    : tin_(mesh.tin()), sharp_(mesh.sharp()), lattice_(lattice) {}
-
-std::uint32_t NeighborCavity::add_neighbor(VertexId v, HalfEdgeId edge, Key2 at) {
-    NaturalNeighbor& added = neighbors_.emplace_back();
-    added.at = internal::localize(lattice_.scaled(tin_.key(v)), at);
-    added.vertex = v;
-    added.edge = edge;
-    return static_cast<std::uint32_t>(neighbors_.size() - 1);
+    : tin_(mesh.tin()), sharp_(mesh.sharp()), lattice_(lattice) {
+    neighbors_.resize(16);
 }
 
-/// Whether the place is strictly inside the circle of the face beyond an edge that runs from a to b.
-bool NeighborCavity::is_inside(const NaturalNeighbor& a, const NaturalNeighbor& b, VertexId beyond,
-                               Key2 at) const {
+/// A vertex that is a neighbour if what is across its rim edge does not change that.
+NaturalNeighbor NeighborCavity::neighbor(VertexId v, HalfEdgeId edge, std::size_t next_one, Key2 at) const {
+    return {internal::localize(lattice_.scaled(tin_.key(v)), at),
+            0,
+            v,
+            edge,
+            static_cast<std::uint32_t>(next_one),
+            false};
+}
+
+// With hardly a branch, so that the answers for two edges overlap.
+bool NeighborCavity::is_inside(const NaturalNeighbor& a, const NaturalNeighbor& b, Key2 at) const {
+    const TriangleMesh& mesh = tin_.mesh;
     const auto key = [&](VertexId v) { return lattice_.scaled(tin_.key(v)); };
-    const LocalKey s = internal::localize(key(beyond), at);
-    const int sign = internal::incircle_local(b.at, a.at, s);
-    return (sign != internal::kUnsure ? sign : incircle(key(b.vertex), key(a.vertex), key(beyond), at)) > 0;
+    const HalfEdgeId across = mesh.twin(a.edge);
+    const bool is_open = mesh.is_terrain(face_of(across)) && !sharp_.is_sharp(across);
+    const VertexId vertex = is_open ? mesh.origin(previous(across)) : a.vertex;
+    int side = internal::incircle_local(b.at, a.at, internal::localize(key(vertex), at));
+    if (side == internal::kUnsure && is_open) [[unlikely]] {
+        side = incircle(key(b.vertex), key(a.vertex), key(vertex), at);
+    }
+    return is_open && side > 0;
 }
 
 template <bool kAreas>
 void NeighborCavity::grow(const NeighborPlace& place, Key2 at) {
-    const TriangleMesh& mesh = tin_.mesh;
-    const auto add_shares = [&](std::uint32_t x, std::uint32_t y, std::uint32_t w) {
+    const auto add_shares = [&](NaturalNeighbor& x, NaturalNeighbor& y, NaturalNeighbor& w) {
         if constexpr (kAreas) {
-            const FaceShares shares = shares_of_face(neighbors_[x].at, neighbors_[y].at, neighbors_[w].at);
-            neighbors_[x].share += shares.x;
-            neighbors_[y].share += shares.y;
-            neighbors_[w].share += shares.w;
+            const FaceShares shares = shares_of_face(x.at, y.at, w.at);
+            x.share += shares.x;
+            y.share += shares.y;
+            w.share += shares.w;
         }
     };
     // The rim is a ring of neighbours, each of which knows the next one and the half-edge there.
-    neighbors_.clear();
+    const TriangleMesh& mesh = tin_.mesh;
     HalfEdgeId edge = place.edge;
+    count_ = 3;
     for (std::uint32_t i = 0; i < 3; ++i, edge = next(edge)) {
-        add_neighbor(mesh.origin(edge), edge, at);
-        neighbors_[i].next = i == 2 ? 0 : i + 1;
+        neighbors_[i] = neighbor(mesh.origin(edge), edge, i == 2 ? 0 : i + 1, at);
     }
-    add_shares(0, 1, 2);
+    add_shares(neighbors_[0], neighbors_[1], neighbors_[2]);
+    for (std::uint32_t i = 0; i < 3; ++i) {
+        neighbors_[i].is_open = is_inside(neighbors_[i], neighbors_[neighbors_[i].next], at);
+    }
     is_on_edge_ = place.kind == NeighborPlace::Kind::Edge;
-    std::uint32_t a = is_on_edge_ ? 1 : 0;
-    for (bool is_around = false; !is_around;) {
-        const std::uint32_t b = neighbors_[a].next;
-        const HalfEdgeId across = mesh.twin(neighbors_[a].edge);
-        const VertexId beyond = mesh.origin(previous(across));
-        if (mesh.is_terrain(face_of(across)) && !sharp_.is_sharp(across) &&
-            is_inside(neighbors_[a], neighbors_[b], beyond, at)) {
-            const std::uint32_t s = add_neighbor(beyond, previous(across), at);
+    neighbors_[0].is_open = neighbors_[0].is_open && !is_on_edge_;
+    std::uint32_t i = 0;
+    do {
+        while (neighbors_[i].is_open) {
+            if (count_ == neighbors_.size()) {
+                neighbors_.resize(2 * count_);
+            }
+            NaturalNeighbor& a = neighbors_[i];
+            NaturalNeighbor& b = neighbors_[a.next];
+            NaturalNeighbor& s = neighbors_[count_];
+            const HalfEdgeId across = mesh.twin(a.edge);
+            s = neighbor(mesh.origin(previous(across)), previous(across), a.next, at);
+            a.edge = next(across);
+            a.next = static_cast<std::uint32_t>(count_);
+            const bool is_before_open = is_inside(a, s, at);
+            s.is_open = is_inside(s, b, at);
+            a.is_open = is_before_open;
             add_shares(b, a, s);
-            neighbors_[s].next = b;
-            neighbors_[a].next = s;
-            neighbors_[a].edge = next(across);
-        } else {
-            a = b;
-            is_around = b == 0;
+            ++count_;
         }
-    }
+        i = neighbors_[i].next;
+    } while (i != 0);
 }
 
 void NeighborCavity::find(const NeighborPlace& place, Key2 at, ShareKind kind) {
@@ -128,7 +144,7 @@ void NeighborCavity::find(const NeighborPlace& place, Key2 at, ShareKind kind) {
     } else {
         grow<false>(place, at);
     }
-    for (std::size_t i = is_on_edge_ ? 1 : 0; i < neighbors_.size(); ++i) {
+    for (std::size_t i = is_on_edge_ ? 1 : 0; i < count_; ++i) {
         NaturalNeighbor& a = neighbors_[i];
         NaturalNeighbor& b = neighbors_[a.next];
         const RimTriangle triangle(a.at, b.at);
@@ -154,7 +170,7 @@ void NeighborCavity::correct_areas() {
     double clearance = neighbors_.front().at.square;
     Point2 rest{0, 0};
     Point2 u{};
-    for (const NaturalNeighbor& neighbor : neighbors_) {
+    for (const NaturalNeighbor& neighbor : neighbors()) {
         total += neighbor.share;
         add(rest, neighbor.share, vector_to(neighbor.at));
         clearance = std::min(clearance, neighbor.at.square);
@@ -171,7 +187,7 @@ void NeighborCavity::correct_areas() {
         double vv = 0;
         double u_rest = 0;
         double v_rest = 0;
-        for (const NaturalNeighbor& neighbor : neighbors_) {
+        for (const NaturalNeighbor& neighbor : neighbors()) {
             const double along = dot(u, vector_to(neighbor.at));
             const double across = precise_cross(u, vector_to(neighbor.at));
             uu += neighbor.share * along * along;
@@ -186,7 +202,7 @@ void NeighborCavity::correct_areas() {
         if (!std::isfinite(by_u) || !std::isfinite(by_v)) {
             return;
         }
-        for (NaturalNeighbor& neighbor : neighbors_) {
+        for (NaturalNeighbor& neighbor : std::span(neighbors_).first(count_)) {
             const double along = dot(u, vector_to(neighbor.at));
             const double across = precise_cross(u, vector_to(neighbor.at));
             neighbor.share *= 1 - (by_u * along + by_v * across);
@@ -196,7 +212,7 @@ void NeighborCavity::correct_areas() {
 
 void NeighborCavity::find_with_gradients(const NeighborPlace& place, Key2 at, ShareKind kind) {
     find(place, at, kind);
-    gradients_.assign(neighbors_.size(), {0, 0});
+    gradients_.assign(count_, {0, 0});
     if (is_on_edge_) {
         set_edge_gradients(kind);
     } else if (kind == ShareKind::Sibson) {
@@ -209,9 +225,8 @@ void NeighborCavity::find_with_gradients(const NeighborPlace& place, Key2 at, Sh
 // The cell's side towards a neighbour moves outward with the place, at each point x of it by x dq / |p_i|:
 // the gradient of a_i is lambda_i times the centre of the side.
 void NeighborCavity::set_area_gradients() {
-    const std::size_t count = neighbors_.size();
-    sides_.assign(count, 0);
-    for (std::size_t i = 0; i < count; ++i) {
+    sides_.assign(count_, 0);
+    for (std::size_t i = 0; i < count_; ++i) {
         const std::size_t j = neighbors_[i].next;
         const LocalKey& a = neighbors_[i].at;
         const LocalKey& b = neighbors_[j].at;
@@ -222,7 +237,7 @@ void NeighborCavity::set_area_gradients() {
         add(gradients_[i], 1, center);
         add(gradients_[j], 1, center);
     }
-    for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t i = 0; i < count_; ++i) {
         gradients_[i] = {gradients_[i].x * sides_[i], gradients_[i].y * sides_[i]};
     }
 }
@@ -230,8 +245,7 @@ void NeighborCavity::set_area_gradients() {
 // With d = a x b, the gradients are that of d: the side a - b, turned; of a (a - b): -(a - b); of b (b - a):
 // -(b - a).
 void NeighborCavity::set_side_gradients() {
-    const std::size_t count = neighbors_.size();
-    for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t i = 0; i < count_; ++i) {
         const std::size_t j = neighbors_[i].next;
         const RimTriangle triangle(neighbors_[i].at, neighbors_[j].at);
         const Point2 side = triangle.side;
@@ -247,7 +261,7 @@ void NeighborCavity::set_side_gradients() {
 
 void NeighborCavity::set_edge_shares(ShareKind kind) {
     across_.clear();
-    for (NaturalNeighbor& neighbor : neighbors_) {
+    for (NaturalNeighbor& neighbor : std::span(neighbors_).first(count_)) {
         across_.push_back(neighbor.share);
         neighbor.share = 0;
     }
@@ -264,7 +278,7 @@ void NeighborCavity::set_edge_gradients(ShareKind kind) {
     const double length = std::sqrt(square(side));
     const Point2 along{side.x / length, side.y / length};
     const Point2 inward{-along.y, along.x};
-    for (std::size_t i = 0; i < neighbors_.size(); ++i) {
+    for (std::size_t i = 0; i < count_; ++i) {
         gradients_[i] = {inward.x * across_[i], inward.y * across_[i]};
     }
     const double of_a = kind == ShareKind::Sibson ? t * t - 2 * s * t : -1;

@@ -64,6 +64,7 @@ struct NaturalNeighbor {
     VertexId vertex{};
     HalfEdgeId edge{};     ///< to the next neighbour counter-clockwise, of a face of the cavity
     std::uint32_t next{};  ///< index of that neighbour
+    bool is_open = false;  ///< false once the cavity is found: it goes on across `edge`
 };
 
 enum class ShareKind : std::uint8_t { Sibson, Laplace };
@@ -79,16 +80,18 @@ class NeighborCavity {
     /// As `find`, with `gradients()`.
     void find_with_gradients(const NeighborPlace& place, Key2 at, ShareKind kind);
 
-    [[nodiscard]] std::span<const NaturalNeighbor> neighbors() const { return neighbors_; }
+    [[nodiscard]] std::span<const NaturalNeighbor> neighbors() const {
+        return std::span(neighbors_).first(count_);
+    }
     /// Of the shares, along x and y, per step.
     [[nodiscard]] std::span<const Point2> gradients() const { return gradients_; }
     /// Whether the place is on the edge between the first two neighbours.
     [[nodiscard]] bool is_on_edge() const { return is_on_edge_; }
 
   private:
-    std::uint32_t add_neighbor(VertexId v, HalfEdgeId edge, Key2 at);
-    [[nodiscard]] bool is_inside(const NaturalNeighbor& a, const NaturalNeighbor& b, VertexId beyond,
-                                 Key2 at) const;
+    [[nodiscard]] NaturalNeighbor neighbor(VertexId v, HalfEdgeId edge, std::size_t next_one, Key2 at) const;
+    /// Whether the face across the rim edge from a to b belongs to the cavity too.
+    [[nodiscard]] bool is_inside(const NaturalNeighbor& a, const NaturalNeighbor& b, Key2 at) const;
     template <bool kAreas>
     void grow(const NeighborPlace& place, Key2 at);
     void correct_areas();
@@ -100,7 +103,8 @@ class NeighborCavity {
     const Tin& tin_;
     const SharpEdges& sharp_;
     const QueryLattice& lattice_;
-    std::vector<NaturalNeighbor> neighbors_;
+    std::vector<NaturalNeighbor> neighbors_;  // the first count_, and room
+    std::size_t count_ = 0;
     std::vector<Point2> gradients_;
     std::vector<double> sides_;   // sums of cotangents
     std::vector<double> across_;  // for a place on an edge: derivatives of the shares across it
