@@ -68,7 +68,8 @@ std::optional<std::vector<CellShare>> voronoi_shares(std::span<const Key2> sites
     std::vector<Vector> at;
     long double reach = 0;
     for (const Key2& site : sites) {
-        at.push_back({static_cast<long double>(site.x) - place.x, static_cast<long double>(site.y) - place.y});
+        at.push_back(
+            {static_cast<long double>(site.x) - place.x, static_cast<long double>(site.y) - place.y});
         reach = std::max({reach, std::abs(at.back().x), std::abs(at.back().y)});
     }
     reach *= 1000;
@@ -87,8 +88,8 @@ std::optional<std::vector<CellShare>> voronoi_shares(std::span<const Key2> sites
         for (std::size_t j = 0; j < at.size() && !taken.empty(); ++j) {
             taken = j == i ? taken : cut_bisector(taken, at[i], at[j], j);
         }
-        shares.push_back({i, taken.empty() ? 0 : area(taken),
-                          std::sqrt(dot(side, side)) / std::sqrt(dot(at[i], at[i]))});
+        shares.push_back(
+            {i, taken.empty() ? 0 : area(taken), std::sqrt(dot(side, side)) / std::sqrt(dot(at[i], at[i]))});
     }
     return shares;
 }

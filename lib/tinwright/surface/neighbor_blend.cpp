@@ -130,9 +130,17 @@ NeighborBlend::Tangent NeighborBlend::tangent(const NeighborCavity& cavity, std:
     return tangent;
 }
 
+// The nearest neighbour's: close to it, where gradients are differences of what is large, all is small then.
+double NeighborBlend::base_of(const NeighborCavity& cavity) const {
+    const std::span<const NaturalNeighbor> all = cavity.neighbors();
+    const auto nearest = std::min_element(
+        all.begin(), all.end(), [](const auto& a, const auto& b) { return a.at.square < b.at.square; });
+    return z(nearest->vertex);
+}
+
 double NeighborBlend::elevation(const NeighborCavity& cavity) {
     look(cavity);
-    const double base = z(cavity.neighbors().front().vertex);
+    const double base = base_of(cavity);
     BlendSums sums;
     for (std::size_t i = 0; i < cavity.neighbors().size(); ++i) {
         const NaturalNeighbor& neighbor = cavity.neighbors()[i];
@@ -144,7 +152,7 @@ double NeighborBlend::elevation(const NeighborCavity& cavity) {
 
 SurfaceReading NeighborBlend::read(const NeighborCavity& cavity) {
     look(cavity);
-    const double base = z(cavity.neighbors().front().vertex);
+    const double base = base_of(cavity);
     BlendSums sums;
     BlendSums along_x;
     BlendSums along_y;

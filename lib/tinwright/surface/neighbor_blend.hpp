@@ -61,6 +61,8 @@ class NeighborBlend {
     template <class Visit>
     void visit_tilts(const NeighborCavity& cavity, std::size_t i, const Visit& visit) const;
     [[nodiscard]] Tangent tangent(const NeighborCavity& cavity, std::size_t i, double base) const;
+    /// What elevations are counted from.
+    [[nodiscard]] double base_of(const NeighborCavity& cavity) const;
     [[nodiscard]] double z(VertexId v) const { return mesh_.tin().z[v.value]; }
 
     const NeighborMesh& mesh_;

@@ -27,7 +27,8 @@ struct FaceShares {
 };
 
 /// Corners counter-clockwise.
-FaceShares shares_of_face(const LocalKey& x, const LocalKey& y, const LocalKey& w) {
+[[gnu::always_inline]] inline FaceShares shares_of_face(const LocalKey& x, const LocalKey& y,
+                                                        const LocalKey& w) {
     const Point2 xy = vector_between(x, y);
     const Point2 yw = vector_between(y, w);
     const Point2 wx = vector_between(w, x);
@@ -69,7 +70,8 @@ NeighborCavity::NeighborCavity(const NeighborMesh& mesh, const QueryLattice& lat
 }
 
 /// A vertex that is a neighbour if what is across its rim edge does not change that.
-NaturalNeighbor NeighborCavity::neighbor(VertexId v, HalfEdgeId edge, std::size_t next_one, Key2 at) const {
+[[gnu::always_inline]] inline NaturalNeighbor NeighborCavity::neighbor(VertexId v, HalfEdgeId edge,
+                                                                       std::size_t next_one, Key2 at) const {
     return {internal::localize(lattice_.scaled(tin_.key(v)), at),
             0,
             v,
@@ -79,7 +81,8 @@ NaturalNeighbor NeighborCavity::neighbor(VertexId v, HalfEdgeId edge, std::size_
 }
 
 // With hardly a branch, so that the answers for two edges overlap.
-bool NeighborCavity::is_inside(const NaturalNeighbor& a, const NaturalNeighbor& b, Key2 at) const {
+[[gnu::always_inline]] inline bool NeighborCavity::is_inside(const NaturalNeighbor& a,
+                                                             const NaturalNeighbor& b, Key2 at) const {
     const TriangleMesh& mesh = tin_.mesh;
     const auto key = [&](VertexId v) { return lattice_.scaled(tin_.key(v)); };
     const HalfEdgeId across = mesh.twin(a.edge);
