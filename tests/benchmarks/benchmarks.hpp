@@ -37,6 +37,8 @@ void run_constrained(const Settings& settings);
 void run_conforming(const Settings& settings);
 /// Contour lines and bands.
 void run_contour(const Settings& settings);
+/// Clough-Tocher surfaces and their gradients, and scipy's.
+void run_clough_tocher(const Settings& settings);
 /// Errors of surfaces where elevations are known: of data sets, and on functions as the samples get denser.
 void run_accuracy(const Settings& settings);
 void run_convergence(const Settings& settings);

@@ -43,14 +43,15 @@ constexpr std::array kBenchmarks{Benchmark{"delaunay", run_delaunay},
                                  Benchmark{"constrained", run_constrained},
                                  Benchmark{"conforming", run_conforming},
                                  Benchmark{"contour", run_contour},
+                                 Benchmark{"clough_tocher", run_clough_tocher},
                                  Benchmark{"accuracy", run_accuracy},
                                  Benchmark{"convergence", run_convergence},
                                  Benchmark{"natural_neighbor", run_natural_neighbor}};
 
 constexpr const char* kUsage =
     "usage: tinwright_benchmarks delaunay|raster|job|read|criteria|criteria_growth|criteria_worst|\n"
-    "                            noding|constrained|conforming|contour|accuracy|convergence|\n"
-    "                            natural_neighbor\n"
+    "                            noding|constrained|conforming|contour|clough_tocher|accuracy|\n"
+    "                            convergence|natural_neighbor\n"
     "           [--rounds K] [--scale FRACTION] [--tinwright COMMAND] [--images FOLDER]\n"
     "           [--data FOLDER] [--sets NAME,...] [--methods METHOD[/GRADIENTS][@CRITERION[:ORDER]],...]\n"
     "Prints a table of docs/benchmarks.md or docs/interpolation.md. Medians of K interleaved runs (default "
