@@ -3,6 +3,7 @@
 #include "tinwright/geometry/error.hpp"
 
 #include "command_check.hpp"
+#include "command_contour.hpp"
 #include "command_grid.hpp"
 #include "command_info.hpp"
 #include "command_tin.hpp"
@@ -48,6 +49,46 @@ TEST_SUITE("tools/setup") {
         CHECK(grid.triangulation.domain.kind == DomainRule::Kind::Trimmed);
         CHECK_FALSE(grid.raster.nodata.has_value());
         CHECK_FALSE(grid.raster.request.extent.has_value());
+    }
+
+    TEST_CASE("contour knows its defaults, and reads levels of either sign") {
+        CommandContour contour;
+        contour.setup({"a.csv", "-o", "b.gpkg", "--interval", "0.50", "--levels", "-5,0,7.25", "-nln", "c"});
+        CHECK(contour.triangulation.domain.kind == DomainRule::Kind::Trimmed);
+        CHECK(contour.contours.request.interval == 0.5);
+        CHECK(contour.contours.request.base == 0);
+        CHECK(contour.contours.request.levels == std::vector<double>{-5, 0, 7.25});
+        CHECK_FALSE(contour.contours.is_bands);
+        CHECK(contour.interpolation.is_linear());
+        CHECK(contour.layer_name == "c");
+        CHECK(contour.contours.canonical() == "--interval 0.5 --base 0 --levels -5,0,7.25");
+    }
+
+    TEST_CASE("contours need levels that make sense") {
+        const auto of_contours = [](std::vector<std::string> arguments) {
+            arguments.insert(arguments.begin(), {"a.csv", "-o", "b.gpkg"});
+            return complaint<CommandContour>(arguments);
+        };
+        CHECK(of_contours({"--interval", "5", "--base", "-2.5", "--index", "4"}) == "fine");
+        CHECK(of_contours({"--levels", "5"}) == "fine");
+        CHECK(of_contours({"--interval", "5", "--method", "smooth", "--tolerance", "0.1"}) == "fine");
+        CHECK(of_contours({}) == "which contours? Give --interval or --levels");
+        CHECK(of_contours({"--interval", "-5"}) == "--interval needs a number above zero, not \"-5\"");
+        CHECK(of_contours({"--interval", "nan"}) == "--interval needs a number above zero, not \"nan\"");
+        CHECK(of_contours({"--levels", "5,,6"}) == "--levels needs a number, not \"\"");
+        CHECK(of_contours({"--levels", "5,inf"}) == "--levels needs a number, not \"inf\"");
+        CHECK(of_contours({"--levels", "5", "--base", "1"}) ==
+              "--base is where the levels of --interval start: give --interval too");
+        CHECK(of_contours({"--levels", "5", "--index", "5"}) ==
+              "--index counts the lines of --interval: give --interval too");
+        CHECK(of_contours({"--interval", "5", "--index", "0"}) ==
+              "--index needs a whole number from 1 up, not \"0\"");
+        CHECK(of_contours({"--interval", "5", "--index", "5", "--polygons"}) ==
+              "--index marks lines: it does not go with --polygons");
+        CHECK(of_contours({"--interval", "5", "--tolerance", "1"}) ==
+              "--tolerance is for surfaces that are traced: lines of --method linear are exact");
+        CHECK(of_contours({"--interval", "5", "--method", "nearest"}) ==
+              "--method nearest has steps and no slopes: contours need another method");
     }
 
     TEST_CASE("options and sources come in any order") {
