@@ -13,6 +13,8 @@
 #include "tinwright/delaunay/constrained_tin.hpp"
 #include "tinwright/geometry/constructions.hpp"
 #include "tinwright/surface/cubic_face.hpp"
+#include "tinwright/surface/linear.hpp"
+#include "tinwright/surface/locator.hpp"
 
 #include "support/cases.hpp"
 #include "support/random_tins.hpp"
@@ -501,5 +503,56 @@ TEST_SUITE("surface/clough_tocher") {
             });
         }
         CHECK(readings[0] == readings[1]);
+    }
+
+    TEST_CASE("on Franke's function errors are a fraction of those of facets, and fall faster") {
+        const auto franke = [](double x, double y) {  // the first of [franke1982]
+            const auto bump = [](double a, double b) { return std::exp(-(a * a + b * b) / 4); };
+            return 0.75 * bump(9 * x - 2, 9 * y - 2) + 0.5 * bump(9 * x - 7, 9 * y - 3) +
+                   0.75 * std::exp(-std::pow(9 * x + 1, 2) / 49 - (9 * y + 1) / 10) -
+                   0.2 * std::exp(-std::pow(9 * x - 4, 2) - std::pow(9 * y - 7, 2));
+        };
+        const auto errors = [&](int side) {  // of facets, and of the surface
+            Random random(2);
+            std::vector<Point3> samples;
+            for (int i = 0; i < side * side; ++i) {
+                const auto off = [&](int place) {
+                    return std::round((place + 0.1 + 0.8 * random.real()) / (side - 2) * 1e6) / 1e6;
+                };
+                const double x = off(i % side - 1);
+                const double y = off(i / side - 1);
+                samples.push_back({x + 1, y + 1, franke(x, y)});
+            }
+            const Tin tin = tinwright_tests::tin_of_samples(samples);
+            const tinwright::SurfaceLocator locator(tin);
+            const auto facets = tinwright::make_linear(tin);
+            const auto surface = make_clough_tocher(tin, {});
+            const auto linear = facets->make_reader();
+            const auto smooth = surface->make_reader();
+            std::array<double, 2> sum{};
+            int count = 0;
+            for (int i = 0; i < 1000; ++i) {
+                const double x = random.real();
+                const double y = random.real();
+                if (const auto place = locator.find(Point2{x + 1, y + 1})) {
+                    sum[0] += std::pow(linear->elevation(*place) - franke(x, y), 2);
+                    sum[1] += std::pow(smooth->elevation(*place) - franke(x, y), 2);
+                    ++count;
+                }
+            }
+            CHECK(count > 950);
+            return std::array{std::sqrt(sum[0] / count), std::sqrt(sum[1] / count)};
+        };
+        const auto of_33 = errors(6);
+        const auto of_100 = errors(10);
+        const auto of_400 = errors(20);
+        const auto of_1600 = errors(40);
+        CHECK(of_33[1] < of_33[0]);
+        CHECK(of_33[1] < 0.09);
+        CHECK(of_100[1] < 0.7 * of_100[0]);
+        CHECK(of_100[1] < 0.03);
+        CHECK(of_400[1] < 0.4 * of_400[0]);
+        CHECK(of_1600[1] < 0.2 * of_1600[0]);
+        CHECK(std::log2(of_400[1] / of_1600[1]) > 2.5);
     }
 }
