@@ -68,8 +68,9 @@ double SmoothReader::foot(unsigned corner) const {
     const Key2 beyond = lattice_.scaled(sources_.tin.key(mesh.origin(previous(mesh.twin(opposite)))));
     const double from = doubled_area(key_[corner], beyond, key_[(corner + 1) % 3]);
     const double to = doubled_area(key_[corner], beyond, key_[(corner + 2) % 3]);
-    // Far outside the edge, as two needles may have it, shares would leave [0, 1]: a crease is better there.
-    const double crossing = std::clamp(from / (from - to), -1.0, 2.0);
+    // Far outside an edge that is short for its faces, shares would leave [0, 1] by far: a crease is better
+    // there.
+    const double crossing = std::clamp(from / (from - to), -7.0, 8.0);
     return (1 + crossing) / 3;
 }
 

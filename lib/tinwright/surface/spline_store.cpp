@@ -29,11 +29,25 @@ std::size_t SplineBlock::bytes() const {
            coefficients_.capacity() * sizeof(double);
 }
 
+namespace {
+
+std::size_t count_blocks(const Tin& tin) {
+    return (tin.vertex_count() + SplineBlock::kBlock - 1) / SplineBlock::kBlock;
+}
+
+/// A row of a raster passes about the square root of the blocks' number, and threads read rows apart from
+/// each other.
+std::size_t first_limit(std::size_t blocks) {
+    return 256 + 16 * static_cast<std::size_t>(std::sqrt(static_cast<double>(blocks)));
+}
+
+}  // namespace
+
 SplineStore::SplineStore(const SplineSources& sources)
-    : tin_(sources.tin),
-      places_((sources.tin.vertex_count() + SplineBlock::kBlock - 1) / SplineBlock::kBlock),
-      // A row passes about the square root of the blocks' number; threads read rows apart from each other.
-      limit_(256 + 16 * static_cast<std::size_t>(std::sqrt(static_cast<double>(places_.size())))) {}
+    : SplineStore(sources, first_limit(count_blocks(sources.tin))) {}
+
+SplineStore::SplineStore(const SplineSources& sources, std::size_t limit)
+    : tin_(sources.tin), places_(count_blocks(sources.tin)), limit_(limit) {}
 
 std::shared_ptr<const SplineBlock> SplineStore::block_of(VertexId v, SplineFitter& fitter) {
     const std::uint32_t number = v.value / SplineBlock::kBlock;

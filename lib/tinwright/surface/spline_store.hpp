@@ -46,10 +46,12 @@ class SplineBlock {
 class SplineStore {
   public:
     explicit SplineStore(const SplineSources& sources);
+    /// `limit`: of the blocks held, to begin with.
+    SplineStore(const SplineSources& sources, std::size_t limit);
 
     /// The block of a vertex; `fitter` is the caller's own.
     [[nodiscard]] std::shared_ptr<const SplineBlock> block_of(VertexId v, SplineFitter& fitter);
-    /// Of the splines held now.
+    /// Of the splines held now; not while others read.
     [[nodiscard]] std::size_t bytes() const;
 
   private:
