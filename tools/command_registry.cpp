@@ -7,8 +7,10 @@
 
 #include "command_check.hpp"
 #include "command_contour.hpp"
+#include "command_explain.hpp"
 #include "command_grid.hpp"
 #include "command_info.hpp"
+#include "command_sample.hpp"
 #include "command_tin.hpp"
 #include "manual_pages.hpp"
 
@@ -26,6 +28,8 @@ const std::array kCommands{
     CommandEntry{"grid", "turns samples, or an existing TIN, into a raster", &make_command<CommandGrid>},
     CommandEntry{"contour", "draws contours of samples, or of an existing TIN",
                  &make_command<CommandContour>},
+    CommandEntry{"sample", "reads a surface at points or along lines", &make_command<CommandSample>},
+    CommandEntry{"explain", "tells why a surface is as it is at one place", &make_command<CommandExplain>},
     CommandEntry{"info", "tells what samples or a TIN are like", &make_command<CommandInfo>},
     CommandEntry{"check", "audits TIN files", &make_command<CommandCheck>},
 };

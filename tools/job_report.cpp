@@ -308,6 +308,9 @@ std::string report_text(const JobReport& report, const Surface& surface, const R
             add("traced", tracing_line(*report.contours));
         }
     }
+    for (const auto& [name, line] : report.details) {
+        add(name, line);
+    }
     for (std::size_t i = 0; i < report.outputs.size(); ++i) {
         const std::string type = report.raster ? ", " + report.raster->written.data_type : std::string();
         add("wrote", report.outputs[i] + (i == 0 ? " (" + report.output_driver + type + ")" : ""));

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tinwright/io/write_grid.hpp"
@@ -29,6 +30,7 @@ struct JobReport {
     std::string duplicate_policy;
     std::optional<RasterReport> raster;
     std::optional<ContourReport> contours;
+    std::vector<std::pair<std::string, std::string>> details;  ///< label and line, for people only
     std::vector<std::string> outputs;
     std::string output_driver;
     double write_seconds = 0;

@@ -6,8 +6,9 @@ namespace tinwright::tools {
 
 namespace {
 
-io::WriteTinOptions layer_options(const io::TinDriver& driver) {
+io::WriteTinOptions layer_options(const io::TinDriver& driver, const io::TinMetadata& metadata) {
     io::WriteTinOptions options;
+    options.metadata = metadata;
     if (driver.name.starts_with("GeoJSON")) {
         options.layer_options = {"COORDINATE_PRECISION=9"};
     }
@@ -21,15 +22,18 @@ void PointLayer::check_target(const std::string& target, const std::string& driv
 }
 
 PointLayer::PointLayer(const std::string& target, const std::string& driver, bool overwrite,
-                       const std::string& layer, std::span<const io::TinField> fields, io::Crs crs)
-    : driver_(io::find_tin_driver(target, driver)),
+                       const std::string& layer, std::span<const io::TinField> fields, io::Crs crs,
+                       Shape shape, const io::TinMetadata& metadata)
+    : shape_(shape),
+      driver_(io::find_tin_driver(target, driver)),
       crs_(std::move(crs)),
-      options_(layer_options(driver_)),
+      options_(layer_options(driver_, metadata)),
       output_(std::make_unique<io::AtomicOutput>(target, overwrite)),
       dataset_(driver_, output_->path(), target, crs_, options_),
-      layer_(dataset_.add_layer(layer, wkbPoint25D, fields, Tin{})) {}
+      layer_(dataset_.add_layer(layer, shape == Shape::Flat ? wkbPoint : wkbPoint25D, fields, Tin{})) {}
 
 std::unique_ptr<io::AtomicOutput> PointLayer::finish() {
+    dataset_.add_metadata_table();
     dataset_.close();
     return std::move(output_);
 }
@@ -38,7 +42,11 @@ void PointLayer::write(const Point3& location) {
     auto& point = layer_.geometry<OGRPoint>();
     point.setX(location.x);
     point.setY(location.y);
-    point.setZ(location.z);
+    if (shape_ == Shape::Flat) {
+        point.set3D(FALSE);
+    } else {
+        point.setZ(location.z);
+    }
     layer_.write();
 }
 

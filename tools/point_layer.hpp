@@ -19,9 +19,13 @@ class PointLayer {
     /// of the file's extension.
     static void check_target(const std::string& target, const std::string& driver = "");
 
+    /// Whether points have z.
+    enum class Shape { WithZ, Flat };
+
     /// Creates the file under a temporary name. Throws UsageError, IoError.
     PointLayer(const std::string& target, const std::string& driver, bool overwrite, const std::string& layer,
-               std::span<const io::TinField> fields, io::Crs crs);
+               std::span<const io::TinField> fields, io::Crs crs, Shape shape = Shape::WithZ,
+               const io::TinMetadata& metadata = {});
     ~PointLayer() = default;
     PointLayer(const PointLayer&) = delete;
     PointLayer& operator=(const PointLayer&) = delete;
@@ -41,11 +45,13 @@ class PointLayer {
         }
     }
     void write(const Point3& location);
+    [[nodiscard]] const std::string& driver() const { return driver_.name; }
     /// Finishes the file, which is still under its temporary name; `commit` moves it into place. Throws
     /// IoError.
     std::unique_ptr<io::AtomicOutput> finish();
 
   private:
+    Shape shape_;
     io::TinDriver driver_;
     io::Crs crs_;
     io::WriteTinOptions options_;

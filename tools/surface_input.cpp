@@ -127,6 +127,39 @@ Inputs read_inputs(const SurfaceRequest& request, Console& console, double end) 
     return inputs;
 }
 
+SourceName name_of(const io::SampleSlice& slice) {
+    using Kind = io::SampleSlice::Kind;
+    return {
+        "file " + io::quoted(slice.file) + (slice.layer.empty() ? "" : ", layer " + io::quoted(slice.layer)),
+        slice.kind == Kind::Text     ? "line"
+        : slice.kind == Kind::Raster ? "cell"
+                                     : "feature"};
+}
+
+std::vector<SourceName> name_sources(const Tin& tin, const TinOrigins& origins, const Inputs& inputs) {
+    std::vector<SourceName> names;
+    const auto set = [&names](std::int32_t number, const auto& make_name) {
+        const auto place = static_cast<std::size_t>(std::max(number, 1)) - 1;
+        names.resize(std::max(names.size(), place + 1));
+        if (number > 0 && names[place].text.empty()) {
+            names[place] = make_name();
+        }
+    };
+    for (std::uint32_t v = 0; v < tin.vertex_count(); ++v) {
+        if (const io::SampleSlice* const slice = inputs.samples.find_slice(tin.sample[v])) {
+            set(origins.vertices.source[v], [&] { return name_of(*slice); });
+        }
+    }
+    for (std::size_t i = 0; i < origins.lines.size(); ++i) {
+        set(origins.lines[i].source, [&] {
+            const io::LineSlice& slice = inputs.lines.slice_of(i);
+            return SourceName{"file " + io::quoted(slice.file) + ", layer " + io::quoted(slice.layer),
+                              "feature"};
+        });
+    }
+    return names;
+}
+
 /// What a TIN file says of where its vertices and lines came from, vertices in the order of the TIN.
 TinOrigins origins_of_file(const Tin& tin, const io::TinFile& file) {
     TinOrigins origins;
@@ -199,6 +232,7 @@ Surface triangulate_sources(const SurfaceRequest& request, Console& console) {
     surface.z_unit = inputs.samples.z_unit.empty() ? inputs.lines.z_unit : inputs.samples.z_unit;
     if (request.keep_origins) {
         surface.origins = make_tin_origins(made.tin, inputs.samples.slices, inputs.lines, request.keep_ids);
+        surface.source_names = name_sources(made.tin, surface.origins, inputs);
     }
     if (request.lines != nullptr) {
         surface.lines = summarize_lines(*request.lines, inputs.lines, made.tin, made.report);

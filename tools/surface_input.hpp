@@ -24,6 +24,12 @@
 
 namespace tinwright::tools {
 
+/// A source in words.
+struct SourceName {
+    std::string text;     ///< `file "a.gpkg", layer "p"`
+    std::string id_word;  ///< what its numbers count: "feature", "line" or "cell"
+};
+
 /// A TIN at hand, triangulated just now or read from a file.
 struct Surface {
     Tin tin;
@@ -34,6 +40,8 @@ struct Surface {
     CriterionReport criterion;
     LinesSummary lines;
     TinOrigins origins;  ///< as a TIN file keeps them; of a TIN file: what it says
+    /// What the sources that `origins` number from 1 are called; empty for a TIN file.
+    std::vector<SourceName> source_names;
     /// For each line that the TIN's traces number: whether the surface may have a crease along it.
     std::vector<bool> is_line_sharp;
     io::TinMetadata metadata;    ///< of the TIN file

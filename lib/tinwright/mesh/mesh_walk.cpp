@@ -19,6 +19,17 @@ std::vector<HalfEdgeId> find_starts(const TriangleMesh& mesh) {
     return starts;
 }
 
+std::vector<std::uint32_t> number_terrain(const TriangleMesh& mesh) {
+    std::vector<std::uint32_t> numbers(mesh.slot_count(), kNoNumber);
+    std::uint32_t next = 0;
+    for (std::uint32_t f = 0; f < mesh.slot_count(); ++f) {
+        if (mesh.is_terrain({f})) {
+            numbers[f] = next++;
+        }
+    }
+    return numbers;
+}
+
 std::optional<HalfEdgeId> find_half_edge(const TriangleMesh& mesh, HalfEdgeId start, VertexId to) {
     HalfEdgeId h = start;
     do {

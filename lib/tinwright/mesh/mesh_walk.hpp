@@ -1,6 +1,7 @@
 #ifndef TINWRIGHT_MESH_MESH_WALK_HPP
 #define TINWRIGHT_MESH_MESH_WALK_HPP
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -16,6 +17,11 @@ inline HalfEdgeId next_around(const TriangleMesh& mesh, HalfEdgeId h) { return m
 /// Vertices without faces get half-edge 3, which is none. O(slots).
 std::vector<HalfEdgeId> find_starts(const TriangleMesh& mesh);
 inline constexpr HalfEdgeId kNoHalfEdge{3};
+
+/// The number of each terrain face among all of them, by slots, as TIN files number them; kNoNumber for other
+/// slots. O(slots).
+std::vector<std::uint32_t> number_terrain(const TriangleMesh& mesh);
+inline constexpr std::uint32_t kNoNumber = 0xFFFFFFFFU;
 
 /// The half-edge from the origin of `start` to `to`. O(degree of the origin).
 std::optional<HalfEdgeId> find_half_edge(const TriangleMesh& mesh, HalfEdgeId start, VertexId to);

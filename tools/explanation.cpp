@@ -1,0 +1,223 @@
+#include "explanation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+#include "tinwright/criteria/criterion.hpp"
+#include "tinwright/geometry/decimal.hpp"
+#include "tinwright/geometry/error.hpp"
+#include "tinwright/geometry/predicates.hpp"
+#include "tinwright/io/gdal_session.hpp"
+#include "tinwright/mesh/mesh_walk.hpp"
+#include "tinwright/surface/breakline_distance.hpp"
+#include "tinwright/surface/locator.hpp"
+#include "tinwright/surface/sample_tree.hpp"
+#include "tinwright/surface/sharp_edges.hpp"
+
+#include "surface_sampler.hpp"
+
+namespace tinwright::tools {
+
+namespace {
+
+const char* role_name(LineRole role) {
+    return role == LineRole::Breakline ? "breakline" : role == LineRole::Boundary ? "boundary" : "hole";
+}
+
+/// Everything that is told of one TIN's vertices and edges.
+class Explainer {
+  public:
+    Explainer(const Surface& surface, const ExplainOptions& options)
+        : surface_(surface), tin_(surface.tin), options_(options), sharp_(tin_, surface.is_line_sharp) {}
+
+    Explanation explain() const {
+        const SurfaceLocator locator(tin_);
+        const Key2 at = locator.lattice().at(options_.at);
+        Explanation result;
+        result.asked = options_.at;
+        result.at = QueryLattice::is_near(at) ? locator.lattice().position(at) : options_.at;
+        explain_neighbourhood(at, result);
+        if (const std::optional<SurfacePlace> place = locator.find(at)) {
+            result.is_inside = true;
+            explain_face(*place, result);
+            explain_methods(*place, result);
+        }
+        return result;
+    }
+
+  private:
+    void explain_neighbourhood(Key2 at, Explanation& result) const {
+        const SampleTree samples(tin_);
+        const std::optional<VertexId> nearest =
+            QueryLattice::is_near(at) ? samples.nearest(at) : nearest_of_all(options_.at);
+        if (!nearest) {
+            throw InputError("the surface has no vertex: there is nothing to explain");
+        }
+        result.nearest = vertex(*nearest);
+        result.nearest_distance =
+            QueryLattice::is_near(at) ? samples.distance(at, *nearest) : distance(options_.at, *nearest);
+        const BreaklineDistance breaklines(tin_, breaklines_of(surface_));
+        if (!breaklines.is_empty()) {
+            result.breakline_distance = breaklines.at(at);
+        }
+    }
+
+    /// For places so far out that keys do not reach them.
+    [[nodiscard]] std::optional<VertexId> nearest_of_all(Point2 from) const {
+        std::optional<VertexId> best;
+        for (std::uint32_t v = 0; v < tin_.vertex_count(); ++v) {
+            const bool is_given = tin_.sample[v] != Tin::kNoSample && tin_.sample[v] != Tin::kCrossing;
+            if (is_given && (!best || distance(from, {v}) < distance(from, *best))) {
+                best = VertexId{v};
+            }
+        }
+        return best;
+    }
+
+    [[nodiscard]] double distance(Point2 from, VertexId v) const {
+        const Point3 p = tin_.position(v);
+        return std::hypot(p.x - from.x, p.y - from.y);
+    }
+
+    void explain_face(const SurfacePlace& place, Explanation& result) const {
+        const TriangleMesh& mesh = tin_.mesh;
+        result.face = number_terrain(mesh)[place.face.value];
+        bool is_delaunay = true;
+        std::size_t constrained = 0;
+        for (unsigned i = 0; i < 3; ++i) {
+            result.corners[i] = vertex(mesh.vertex(place.face, i));
+            result.edges[i] = edge(half_edge(place.face, i));
+            is_delaunay = is_delaunay && result.edges[i].is_delaunay.value_or(true);
+            constrained += result.edges[i].is_constrained ? 1U : 0U;
+        }
+        result.made_by = maker(is_delaunay, constrained);
+        if (const auto criterion = find_criterion(surface_.criterion.name)) {
+            result.measure = measure_face(tin_, place.face, *criterion);
+        }
+    }
+
+    [[nodiscard]] std::string maker(bool is_delaunay, std::size_t constrained) const {
+        const std::string& criterion = surface_.criterion.name;
+        std::string text = is_delaunay ? "Delaunay: no neighbour lies in its circle" : "not Delaunay: ";
+        if (!is_delaunay) {
+            text += constrained > 0 ? "a constrained edge holds it" : "a neighbour lies in its circle";
+            if (!criterion.empty() && criterion != "delaunay") {
+                text += constrained > 0 ? ", or the criterion " + criterion + " made it"
+                                        : "; the criterion " + criterion + " made it";
+            } else if (constrained == 0) {
+                text += "; made by a constraint near by, or as the file has it";
+            }
+        }
+        return text;
+    }
+
+    [[nodiscard]] ExplainedVertex vertex(VertexId v) const {
+        ExplainedVertex explained{v, tin_.position(v), kind_of(v), {}};
+        const io::VertexOrigins& origins = surface_.origins.vertices;
+        explained.from = provenance(v.value < origins.source.size() ? origins.source[v.value] : 0,
+                                    v.value < origins.feature.size() ? origins.feature[v.value] : -1);
+        return explained;
+    }
+
+    [[nodiscard]] std::string kind_of(VertexId v) const {
+        const std::uint32_t sample = tin_.sample[v.value];
+        if (sample == Tin::kNoSample) {
+            return "Steiner point";
+        }
+        if (sample == Tin::kCrossing) {
+            return "crossing";
+        }
+        return is_of_line(v) ? "line vertex" : "sample";
+    }
+
+    /// Of sources the index says it; of a TIN file that its source has lines.
+    [[nodiscard]] bool is_of_line(VertexId v) const {
+        if (surface_.report) {
+            const auto& slices = surface_.slices;
+            return slices.empty() || tin_.sample[v.value] >= slices.back().first + slices.back().count;
+        }
+        const std::vector<std::int32_t>& sources = surface_.origins.vertices.source;
+        const auto& lines = surface_.origins.lines;
+        return v.value < sources.size() && sources[v.value] > 0 &&
+               std::any_of(lines.begin(), lines.end(),
+                           [&](const io::LineOrigin& line) { return line.source == sources[v.value]; });
+    }
+
+    [[nodiscard]] Provenance provenance(std::int32_t number, std::int64_t feature) const {
+        const auto index = static_cast<std::size_t>(std::max(number, 1)) - 1;
+        const bool is_named = number > 0 && index < surface_.source_names.size();
+        return {is_named ? surface_.source_names[index] : SourceName{}, number, feature};
+    }
+
+    [[nodiscard]] ExplainedEdge edge(HalfEdgeId h) const {
+        const TriangleMesh& mesh = tin_.mesh;
+        ExplainedEdge explained;
+        explained.a = mesh.origin(h);
+        explained.b = mesh.destination(h);
+        const Point3 p = tin_.position(explained.a);
+        explained.length = distance({p.x, p.y}, explained.b);
+        explained.is_constrained = mesh.is_constrained(h);
+        explained.is_border = mesh.is_border(h);
+        explained.is_sharp = sharp_.is_sharp(h);
+        const HalfEdgeId twin = mesh.twin(h);
+        if (!mesh.is_ghost(face_of(twin))) {
+            explained.is_delaunay =
+                incircle(tin_.key(explained.a), tin_.key(explained.b), tin_.key(mesh.origin(previous(h))),
+                         tin_.key(mesh.origin(previous(twin)))) <= 0;
+        }
+        const LineTrace first{std::min(explained.a, explained.b), std::max(explained.a, explained.b), 0, 0};
+        for (auto trace = std::lower_bound(tin_.traces.begin(), tin_.traces.end(), first);
+             trace != tin_.traces.end() && trace->a == first.a && trace->b == first.b; ++trace) {
+            if (trace->line < surface_.origins.lines.size()) {
+                const io::LineOrigin& line = surface_.origins.lines[trace->line];
+                explained.lines.push_back(
+                    {role_name(line.role), line.is_sharp, provenance(line.source, line.feature)});
+            }
+        }
+        return explained;
+    }
+
+    void explain_methods(const SurfacePlace& place, Explanation& result) const {
+        for (const auto& [name, method] : kInterpolationMethods) {
+            const bool is_costly =
+                method == InterpolationMethod::Smooth || method == InterpolationMethod::SmoothC1;
+            InterpolationOptions options = options_.interpolation.options;
+            const bool is_asked = options.method == method;
+            if (is_costly && !is_asked && tin_.vertex_count() > kMostSmoothed) {
+                result.left_out.emplace_back(name);
+                continue;
+            }
+            if (method == InterpolationMethod::SmoothC1 && !is_asked) {
+                std::erase_if(options.smooth.kernels,
+                              [](const SmoothOptions::Kernel& kernel) { return kernel.exponent < 1.5; });
+            }
+            options.method = method;
+            options.threads = options_.threads;
+            const auto surface = make_interpolator(tin_, sharp_, options);
+            const auto reader = surface->make_reader();
+            ExplainedMethod explained{std::string(name), reader->read(place), {}};
+            reader->find_weights(place, explained.weights);
+            std::sort(explained.weights.begin(), explained.weights.end(),
+                      [](const VertexWeight& a, const VertexWeight& b) {
+                          return std::abs(a.weight) != std::abs(b.weight)
+                                     ? std::abs(a.weight) > std::abs(b.weight)
+                                     : a.vertex < b.vertex;
+                      });
+            result.methods.push_back(std::move(explained));
+        }
+    }
+
+    const Surface& surface_;
+    const Tin& tin_;
+    const ExplainOptions& options_;
+    SharpEdges sharp_;
+};
+
+}  // namespace
+
+Explanation explain(const Surface& surface, const ExplainOptions& options) {
+    return Explainer(surface, options).explain();
+}
+
+}  // namespace tinwright::tools

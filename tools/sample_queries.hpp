@@ -1,0 +1,50 @@
+#ifndef TINWRIGHT_TOOLS_SAMPLE_QUERIES_HPP
+#define TINWRIGHT_TOOLS_SAMPLE_QUERIES_HPP
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "tinwright/geometry/point.hpp"
+#include "tinwright/geometry/progress.hpp"
+#include "tinwright/io/crs.hpp"
+
+#include "options_sample.hpp"
+
+namespace tinwright::tools {
+
+/// Where something asked about came from.
+struct QueryId {
+    std::int64_t source = 1;  ///< number of its --at, from 1
+    std::int64_t feature =
+        0;  ///< feature id, line of a text, or cell of a raster; of an X,Y the source again
+};
+
+/// What --at names, in the surface's CRS and the order of the command line: points or lines.
+struct Queries {
+    std::vector<Point2> points;
+    std::vector<QueryId> point_ids;
+    std::vector<std::vector<Point2>> lines;
+    std::vector<QueryId> line_ids;
+    std::vector<std::string> warnings;  ///< one line each
+};
+
+/// Whether lines are asked about. Opens every source, so that a file that is not there is found before any
+/// work is done. Throws IoError; UsageError for points and lines at once.
+bool are_lines(std::span<const Whereabouts> at);
+
+struct QueryOptions {
+    io::Crs crs;         ///< the surface's, may be unknown
+    io::Crs source_crs;  ///< of sources that carry none
+    bool skip_bad = false;
+    int threads = 0;
+    Progress progress;
+};
+
+/// Reads them; elevations that they have do not matter. Throws what `read_samples` and `read_lines` do.
+Queries read_queries(std::span<const Whereabouts> at, bool lines, const QueryOptions& options);
+
+}  // namespace tinwright::tools
+
+#endif

@@ -1,0 +1,193 @@
+#include "surface_sampler.hpp"
+
+#include <array>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "tinwright/mesh/mesh_walk.hpp"
+#include "tinwright/surface/locator.hpp"
+#include "tinwright/surface/read_places.hpp"
+
+namespace tinwright::tools {
+
+namespace {
+
+using Type = TableColumn::Type;
+
+constexpr std::array<TableColumn, 10> kPointColumns{{{"source", Type::Whole},
+                                                     {"id", Type::Whole},
+                                                     {"x", Type::Real},
+                                                     {"y", Type::Real},
+                                                     {"z", Type::Real},
+                                                     {"slope", Type::Real},
+                                                     {"aspect", Type::Real},
+                                                     {"face", Type::Whole},
+                                                     {"inside", Type::Whole},
+                                                     {"breakline", Type::Real}}};
+constexpr std::array<TableColumn, 14> kLineColumns{{{"source", Type::Whole},
+                                                    {"id", Type::Whole},
+                                                    {"line", Type::Whole},
+                                                    {"part", Type::Whole},
+                                                    {"chainage", Type::Real},
+                                                    {"kind", Type::Text},
+                                                    {"x", Type::Real},
+                                                    {"y", Type::Real},
+                                                    {"z", Type::Real},
+                                                    {"slope", Type::Real},
+                                                    {"aspect", Type::Real},
+                                                    {"face", Type::Whole},
+                                                    {"inside", Type::Whole},
+                                                    {"breakline", Type::Real}}};
+
+std::string kind_word(ProfilePoint::Kind kind) {
+    switch (kind) {
+        case ProfilePoint::Kind::Line:
+            return "line";
+        case ProfilePoint::Kind::Vertex:
+            return "vertex";
+        case ProfilePoint::Kind::Edge:
+            return "edge";
+        case ProfilePoint::Kind::Step:
+            break;
+    }
+    return "step";
+}
+
+/// The places that there are, and where each of them stands among all.
+struct PlaceList {
+    std::vector<SurfacePlace> places;
+    std::vector<std::size_t> indices;  // one an optional place; meaningless for empty ones
+};
+
+template <class Items, class PlaceOf>
+PlaceList list_places(const Items& items, const PlaceOf& place_of) {
+    PlaceList list;
+    list.indices.reserve(items.size());
+    for (const auto& item : items) {
+        list.indices.push_back(list.places.size());
+        if (const std::optional<SurfacePlace>& place = place_of(item)) {
+            list.places.push_back(*place);
+        }
+    }
+    return list;
+}
+
+/// The readings in the order of all items; nothing in particular for those without a place.
+class Readings {
+  public:
+    Readings(const Interpolator& surface, PlaceList list)
+        : indices_(std::move(list.indices)), readings_(read_places(surface, list.places)) {}
+
+    [[nodiscard]] SurfaceReading at(std::size_t item) const {
+        return indices_[item] < readings_.size() ? readings_[indices_[item]] : SurfaceReading{};
+    }
+
+  private:
+    std::vector<std::size_t> indices_;
+    std::vector<SurfaceReading> readings_;
+};
+
+ProfileCurve make_curve(const std::string& name, const std::vector<ProfilePoint>& points,
+                        const Readings& readings) {
+    ProfileCurve curve{name, {}};
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if (!points[i].place) {
+            continue;
+        }
+        curve.parts.resize(points[i].part + std::size_t{1});
+        curve.parts.back().push_back({points[i].chainage, readings.at(i).z});
+    }
+    return curve;
+}
+
+}  // namespace
+
+std::vector<bool> breaklines_of(const Surface& surface) {
+    std::vector<bool> are_breaklines;
+    for (const io::LineOrigin& line : surface.origins.lines) {
+        are_breaklines.push_back(line.role == LineRole::Breakline);
+    }
+    return are_breaklines;
+}
+
+std::span<const TableColumn> point_columns() { return kPointColumns; }
+std::span<const TableColumn> line_columns() { return kLineColumns; }
+
+SurfaceSampler::SurfaceSampler(const Surface& surface, const InterpolationChoice& interpolation,
+                               SlopeUnit slope_unit, int threads)
+    : surface_(surface),
+      slope_unit_(slope_unit),
+      interpolator_(interpolation.make(surface, threads)),
+      face_numbers_(number_terrain(surface.tin.mesh)),
+      breaklines_(surface.tin, breaklines_of(surface)),
+      lattice_(surface.tin) {}
+
+void SurfaceSampler::append_reading(std::vector<TableValue>& row, Point2 position,
+                                    const std::optional<SurfacePlace>& place,
+                                    const SurfaceReading& reading) const {
+    row.emplace_back(position.x);
+    row.emplace_back(position.y);
+    if (place) {
+        row.emplace_back(reading.z);
+        row.emplace_back(slope_of(reading.gradient, slope_unit_));
+        row.emplace_back(aspect_of(reading.gradient));
+        row.emplace_back(static_cast<std::int64_t>(face_numbers_[place->face.value]));
+    } else {
+        row.resize(row.size() + 4);
+    }
+    row.emplace_back(std::int64_t{place ? 1 : 0});
+    row.emplace_back(breaklines_.at(lattice_.at(position)));  // infinite, so empty, where there is none
+}
+
+void SurfaceSampler::sample_points(const Queries& queries, SampleTable& table, SampledCounts& counts) const {
+    const SurfaceLocator locator(surface_.tin);
+    const std::vector<std::optional<SurfacePlace>> places = find_places(locator, queries.points);
+    const Readings readings(*interpolator_, list_places(places, [](const auto& place) { return place; }));
+    std::vector<TableValue> row;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        const QueryId& id = queries.point_ids[i];
+        row.assign({id.source, id.feature});
+        append_reading(row, queries.points[i], places[i], readings.at(i));
+        table.add(queries.points[i], row);
+        counts.outside += places[i] ? 0 : 1;
+    }
+    counts.points += places.size();
+}
+
+void SurfaceSampler::sample_lines(const Queries& queries, const ProfileOptions& options, SampleTable& table,
+                                  SampledCounts& counts, std::vector<ProfileCurve>* curves) const {
+    const ProfileCutter cutter(surface_.tin);
+    std::vector<TableValue> row;
+    for (std::size_t l = 0; l < queries.lines.size(); ++l) {
+        const std::vector<ProfilePoint> points = cutter.cut(queries.lines[l], options);
+        const Readings readings(*interpolator_,
+                                list_places(points, [](const auto& point) { return point.place; }));
+        const QueryId& id = queries.line_ids[l];
+        std::uint32_t parts = 0;
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const ProfilePoint& point = points[i];
+            row.assign({id.source, id.feature, static_cast<std::int64_t>(l)});
+            if (point.place) {
+                parts = point.part + 1;
+                row.emplace_back(std::int64_t{point.part});
+            } else {
+                ++counts.outside;
+                row.emplace_back();
+            }
+            row.emplace_back(point.chainage);
+            row.emplace_back(kind_word(point.kind));
+            append_reading(row, point.position, point.place, readings.at(i));
+            table.add(point.position, row);
+        }
+        counts.points += points.size();
+        counts.parts += parts;
+        if (curves != nullptr) {
+            curves->push_back(make_curve(
+                "line " + std::to_string(l) + " (id " + std::to_string(id.feature) + ")", points, readings));
+        }
+    }
+    counts.lines += queries.lines.size();
+}
+
+}  // namespace tinwright::tools
