@@ -36,7 +36,8 @@ class Explainer {
         const Key2 at = locator.lattice().at(options_.at);
         Explanation result;
         result.asked = options_.at;
-        result.at = QueryLattice::is_near(at) ? locator.lattice().position(at) : options_.at;
+        result.quantum = tin_.lattice.quantum();
+        result.step = locator.lattice().step();
         explain_neighbourhood(at, result);
         if (const std::optional<SurfacePlace> place = locator.find(at)) {
             result.is_inside = true;

@@ -61,7 +61,8 @@ struct ExplainedMethod {
 /// Why a surface is as it is at one place.
 struct Explanation {
     Point2 asked{};
-    Point2 at{};  ///< as rounded
+    double quantum = 0;  ///< vertices lie at multiples of it, CRS units
+    double step = 0;     ///< the place was rounded to multiples of this
     bool is_inside = false;
     ExplainedVertex nearest;  ///< vertex that was given, rather than made
     double nearest_distance = 0;

@@ -172,9 +172,8 @@ std::string explanation_text(const Explanation& explanation, const Surface& surf
     const std::string where = location_text(explanation.asked);
     text.start(explanation.is_inside ? where + " is on face " + std::to_string(explanation.face)
                                      : where + " is outside the surface: there is no elevation");
-    if (explanation.at != explanation.asked) {
-        text.add("taken as", location_text(explanation.at));
-    }
+    text.add("lattice",
+             "vertices to " + rounded(explanation.quantum) + ", the place to " + rounded(explanation.step));
     if (explanation.is_inside) {
         for (const ExplainedVertex& corner : explanation.corners) {
             text.add("corner", vertex_text(corner));
@@ -210,6 +209,7 @@ JsonValue explanation_json(const Explanation& explanation, const Surface& surfac
                            const ExplainOptions& options) {
     JsonValue json = JsonValue::object();
     json.set("at", JsonValue::array_of({explanation.asked.x, explanation.asked.y}));
+    json.set("quantum", explanation.quantum).set("step", explanation.step);
     json.set("inside", explanation.is_inside);
     json.set("nearest", vertex_json(explanation.nearest).set("distance", explanation.nearest_distance));
     if (explanation.breakline_distance) {

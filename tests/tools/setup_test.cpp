@@ -1,11 +1,15 @@
+#include <variant>
+
 #include <doctest/doctest.h>
 
 #include "tinwright/geometry/error.hpp"
 
 #include "command_check.hpp"
 #include "command_contour.hpp"
+#include "command_explain.hpp"
 #include "command_grid.hpp"
 #include "command_info.hpp"
+#include "command_sample.hpp"
 #include "command_tin.hpp"
 
 namespace {
@@ -433,5 +437,70 @@ TEST_SUITE("tools/setup") {
               "--conflicts and --preview name the same file \"p.png\"");
         CHECK(of_lines({"--boundary", ",layer=a"}) ==
               R"(source ",layer=a": the path is missing; write PATH[,key=value...])");
+    }
+
+    TEST_CASE("sample takes places as sources and as coordinates, negative ones too") {
+        CommandSample sample;
+        sample.setup({"a.csv", "--at", "-1,2", "--at", "p.gpkg,layer=q", "--at=-.5,-1e3", "--step", "2.50"});
+        REQUIRE(sample.sample.at.size() == 3);
+        CHECK(std::get<Point2>(sample.sample.at[0]) == Point2{-1, 2});
+        CHECK(std::get<io::Source>(sample.sample.at[1]).layer == "q");
+        CHECK(std::get<Point2>(sample.sample.at[2]) == Point2{-0.5, -1000});
+        CHECK(sample.sample.step == 2.5);
+        CHECK(sample.sample.slope_unit == SlopeUnit::Degree);
+        CHECK(sample.triangulation.domain.kind == DomainRule::Kind::Trimmed);
+        CHECK(sample.output.path.empty());
+        CHECK(sample.sources.sources.size() == 1);
+    }
+
+    TEST_CASE("sample says what is wrong with its command line") {
+        const std::vector<std::string> base{"a.csv", "--at", "1,2"};
+        const auto with = [&](std::vector<std::string> more) {
+            more.insert(more.begin(), base.begin(), base.end());
+            return complaint<CommandSample>(more);
+        };
+        CHECK(complaint<CommandSample>({"a.csv"}) ==
+              "where to read the surface is not said: --at FILE names points or lines, --at X,Y a position");
+        CHECK(complaint<CommandSample>({"--at", "1,2"}) ==
+              "no source is given: name a file with points, such as survey.csv");
+        CHECK(complaint<CommandSample>({"a.csv", "--at", "nan,2"}) ==
+              "--at needs two finite numbers X,Y, not \"nan,2\"");
+        CHECK(with({"--step", "0"}) == "--step needs a number above zero, not \"0\"");
+        CHECK(with({"--slope-unit", "grad"}) == "--slope-unit takes degree, percent or ratio, not \"grad\"");
+        CHECK(with({"--plot", "p.pdf"}) == "--plot writes .svg and .png, not \"p.pdf\"");
+        CHECK(with({"--plot", "p.svg", "-o", "p.svg"}) == "--plot and -o name the same file \"p.svg\"");
+        CHECK(with({"--json"}) ==
+              "--json and the output both want standard output: write the output to a file");
+        CHECK(with({"--of", "GPKG"}) ==
+              "only CSV goes to standard output, not GPKG: name a file with -o FILE");
+        CHECK(with({"-o", "-"}) == "fine");
+        CHECK(with({"-o", "x.csv", "--json"}) == "fine");
+    }
+
+    TEST_CASE("explain takes its place last, or by --at") {
+        for (const std::vector<std::string>& arguments : {std::vector<std::string>{"a.csv", "-3.5,4"},
+                                                          {"-3.5,4", "a.csv"},
+                                                          {"a.csv", "--at", "-3.5,4"},
+                                                          {"--at=-3.5,4", "a.csv", "--json"}}) {
+            CAPTURE(arguments.front());
+            CommandExplain explain;
+            explain.setup(arguments);
+            CHECK(explain.at == Point2{-3.5, 4});
+            REQUIRE(explain.sources.sources.size() == 1);
+            CHECK(explain.sources.sources[0].path == "a.csv");
+        }
+        CommandExplain explain;
+        explain.setup({"a.csv", "b.csv", "1, 2"});
+        CHECK(explain.at == Point2{1, 2});
+        CHECK(explain.sources.sources.size() == 2);
+        CHECK(complaint<CommandExplain>({"a.csv"}) == "no place is given: name it as X,Y after the sources");
+        CHECK(complaint<CommandExplain>({"a.csv", "--at", "here"}) ==
+              "a place is two numbers X,Y, not \"here\"");
+        CHECK(complaint<CommandExplain>({"1,2"}) ==
+              "no source is given: name a file with points, such as survey.csv");
+        CHECK(complaint<CommandExplain>({"a.csv", "--at", "1,2", "--at", "2,3"}) ==
+              "one place is explained at a time: give X,Y once");
+        CHECK(complaint<CommandExplain>({"a.csv", "inf,2"}) ==
+              "--at needs two finite numbers X,Y, not \"inf,2\"");
     }
 }
