@@ -162,7 +162,7 @@ std::vector<oracle::Edge> constraints_of(const Tin& tin) {
     return edges;
 }
 
-/// The least gain of a flip, in units of the sum, that no rounding explains.
+/// The least gain of a flip, as a part of the sum or of 1, that no rounding explains.
 constexpr long double kCertainGain = 1e-7L;
 
 }  // namespace
@@ -251,7 +251,7 @@ TEST_SUITE("optimal/data_dependent") {
                                 Tin flipped = tin;
                                 flip_edge(flipped.mesh, h);
                                 const long double after = sum_by_definition(flipped, measure);
-                                REQUIRE(after >= sum - kCertainGain * std::max(sum, after));
+                                REQUIRE(after >= sum - kCertainGain * std::max({sum, after, 1.0L}));
                             }
                         });
                     }
@@ -393,7 +393,7 @@ TEST_SUITE("optimal/data_dependent") {
                 const int after = crossing(triangulate(samples, options).tin);
                 CAPTURE(before);
                 REQUIRE(before >= 10);
-                REQUIRE(after <= before / 4);
+                REQUIRE(after <= before / 3);
             }
         }
     }
