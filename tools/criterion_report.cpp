@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdio>
+#include <numbers>
 #include <utility>
 
 #include "tinwright/geometry/decimal.hpp"
@@ -33,7 +34,7 @@ std::string unit_of(Criterion criterion, const io::Crs& crs) {
     return crs.unit().empty() ? kUnknownUnit : crs.unit();
 }
 
-/// The keys of the four worst measures, in the metadata and in JSON.
+/// The keys of the measures, in the metadata and in JSON.
 struct WorstKey {
     const char* metadata;
     const char* json;
@@ -45,7 +46,9 @@ constexpr std::array kWorstKeys{
     WorstKey{"TINWRIGHT_WORST_INTERIOR", "worst_interior", &CriterionReport::worst_interior},
     WorstKey{"TINWRIGHT_WORST_DELAUNAY", "worst_delaunay", &CriterionReport::worst_delaunay},
     WorstKey{"TINWRIGHT_WORST_INTERIOR_DELAUNAY", "worst_interior_delaunay",
-             &CriterionReport::worst_interior_delaunay}};
+             &CriterionReport::worst_interior_delaunay},
+    WorstKey{"TINWRIGHT_SUM", "sum", &CriterionReport::sum},
+    WorstKey{"TINWRIGHT_SUM_DELAUNAY", "sum_delaunay", &CriterionReport::sum_delaunay}};
 
 struct TextKey {
     const char* metadata;
@@ -54,6 +57,7 @@ struct TextKey {
 
 constexpr std::array kTextKeys{TextKey{"TINWRIGHT_CRITERION", &CriterionReport::name},
                                TextKey{"TINWRIGHT_SCOPE", &CriterionReport::scope},
+                               TextKey{"TINWRIGHT_DELAUNAY_ORDER", &CriterionReport::delaunay_order},
                                TextKey{"TINWRIGHT_UNIT", &CriterionReport::unit},
                                TextKey{"TINWRIGHT_PROVEN", &CriterionReport::proven},
                                TextKey{"TINWRIGHT_STOPPED_BY", &CriterionReport::stopped_by}};
@@ -69,6 +73,10 @@ constexpr std::array kCountKeys{CountKey{"TINWRIGHT_TIES", "ties", &OptimizeRepo
                                 CountKey{"TINWRIGHT_INSERTIONS", "insertions", &OptimizeReport::insertions},
                                 CountKey{"TINWRIGHT_TRIES", "tries", &OptimizeReport::tries},
                                 CountKey{"TINWRIGHT_CANDIDATES", "candidates", &OptimizeReport::candidates}};
+
+/// Whole numbers, as many digits as they need.
+constexpr std::array kFlipKeys{WorstKey{"TINWRIGHT_FLIPS", "flips", &CriterionReport::flips},
+                               WorstKey{"TINWRIGHT_REFUSED", "refused", &CriterionReport::refused}};
 
 std::string short_number(double value) {
     std::array<char, 48> text{};
@@ -121,6 +129,25 @@ std::string proof_line(const CriterionReport& report) {
            "a proof";
 }
 
+/// "normal-angle, Delaunay order 3", and how that went.
+std::vector<std::string> crease_lines(const CriterionReport& report, const std::string& source) {
+    const bool is_limited = !report.delaunay_order.empty() && report.delaunay_order != "none";
+    std::vector<std::string> lines{
+        report.name + (is_limited ? ", Delaunay order " + report.delaunay_order : ", no limit of order") +
+        source};
+    lines.push_back("sum of creases " + change_text(report.sum_delaunay, report.sum) +
+                    (report.unit == "degree" ? " deg" : ""));
+    lines.push_back(report.stopped_by == "budget" || report.stopped_by == "interrupt"
+                        ? "stopped by " +
+                              std::string(report.stopped_by == "budget" ? "the budget" : "an interrupt")
+                        : "a heuristic: no flip lowers the sum any more, which proves nothing of other TINs");
+    if (report.flips && report.refused) {
+        lines.push_back(short_number(*report.flips) + " flips, " + short_number(*report.refused) +
+                        " refused by the order");
+    }
+    return lines;
+}
+
 std::string counted(std::size_t count, const char* singular, const char* plural) {
     return std::to_string(count) + " " + (count == 1 ? singular : plural);
 }
@@ -152,20 +179,33 @@ std::string slope_unit_doubt(const io::Crs& crs, const std::string& z_unit) {
 
 }  // namespace
 
-CriterionReport make_criterion_report(const TriangulationOptions& options,
-                                      const std::optional<OptimizeReport>& result, const io::Crs& crs) {
+CriterionReport make_criterion_report(const TriangulationOptions& options, const TriangulateReport& result,
+                                      const io::Crs& crs) {
     CriterionReport report;
     report.name = options.criterion_name();
     report.scope = options.scope_name();
-    if (options.optimize && result) {
+    report.delaunay_order = options.order_name();
+    if (options.optimize && result.optimize) {
+        const OptimizeReport& optimum = *result.optimize;
         report.unit = unit_of(options.optimize->criterion, crs);
-        report.worst = result->after.all;
-        report.worst_interior = result->after.interior;
-        report.worst_delaunay = result->before.all;
-        report.worst_interior_delaunay = result->before.interior;
-        report.proven = choice_name(result->proof, kProofs);
-        report.stopped_by = choice_name(result->stopped_by, kStops);
-        report.counts = result;
+        report.worst = optimum.after.all;
+        report.worst_interior = optimum.after.interior;
+        report.worst_delaunay = optimum.before.all;
+        report.worst_interior_delaunay = optimum.before.interior;
+        report.proven = choice_name(optimum.proof, kProofs);
+        report.stopped_by = choice_name(optimum.stopped_by, kStops);
+        report.counts = optimum;
+    } else if (options.data_dependent && result.data_dependent) {
+        const DataDependentReport& flipped = *result.data_dependent;
+        const bool is_angle = options.data_dependent->measure == CreaseMeasure::NormalAngle;
+        const double unit = is_angle ? 180 / std::numbers::pi : 1;
+        report.unit = is_angle ? "degree" : "ratio";
+        report.sum = flipped.sum_after * unit;
+        report.sum_delaunay = flipped.sum_before * unit;
+        report.proven = choice_name(Proof::None, kProofs);
+        report.stopped_by = choice_name(flipped.stopped_by, kStops);
+        report.flips = static_cast<double>(flipped.flips);
+        report.refused = static_cast<double>(flipped.refused);
     }
     return report;
 }
@@ -177,6 +217,9 @@ CriterionReport read_criterion_report(const io::TinMetadata& metadata) {
         report.*key.value = metadata_value(metadata, key.metadata);
     }
     for (const WorstKey& key : kWorstKeys) {
+        report.*key.value = find_number(metadata_value(metadata, key.metadata));
+    }
+    for (const WorstKey& key : kFlipKeys) {
         report.*key.value = find_number(metadata_value(metadata, key.metadata));
     }
     OptimizeReport counts;
@@ -210,6 +253,11 @@ io::TinMetadata criterion_metadata(const CriterionReport& report) {
             metadata.emplace_back(key.metadata, std::to_string((*report.counts).*key.value));
         }
     }
+    for (const WorstKey& key : kFlipKeys) {
+        if (const std::optional<double>& value = report.*key.value) {
+            metadata.emplace_back(key.metadata, decimal_text(*value));
+        }
+    }
     return metadata;
 }
 
@@ -218,6 +266,9 @@ JsonValue criterion_json(const CriterionReport& report) {
     json.set("name", report.name);
     if (!report.scope.empty()) {
         json.set("scope", report.scope);
+    }
+    if (const std::optional<double> order = find_number(report.delaunay_order)) {
+        json.set("delaunay_order", *order);
     }
     for (const WorstKey& key : kWorstKeys) {
         if (const std::optional<double>& value = report.*key.value) {
@@ -238,15 +289,23 @@ JsonValue criterion_json(const CriterionReport& report) {
             json.set(key.json, (*report.counts).*key.value);
         }
     }
+    for (const WorstKey& key : kFlipKeys) {
+        if (const std::optional<double>& value = report.*key.value) {
+            json.set(key.json, *value);
+        }
+    }
     return json;
 }
 
 std::vector<std::string> criterion_lines(const CriterionReport& report) {
+    const std::string source = report.is_from_file ? " (as the file says)" : "";
+    if (report.sum) {
+        return crease_lines(report, source);
+    }
     if (!report.worst) {
         return {};
     }
-    std::vector<std::string> lines{report.name + ", scope " + report.scope +
-                                   (report.is_from_file ? " (as the file says)" : "")};
+    std::vector<std::string> lines{report.name + ", scope " + report.scope + source};
     lines.push_back(worst_line(report));
     lines.push_back(proof_line(report));
     if (report.counts) {
@@ -256,25 +315,33 @@ std::vector<std::string> criterion_lines(const CriterionReport& report) {
 }
 
 std::vector<std::string> criterion_warnings(const TriangulationOptions& options,
-                                            const std::optional<OptimizeReport>& result, const io::Crs& crs,
+                                            const TriangulateReport& result, const io::Crs& crs,
                                             const std::string& z_unit) {
     std::vector<std::string> warnings;
-    if (!options.optimize || !result) {
-        return warnings;
+    const bool is_slope =
+        options.data_dependent || (options.optimize && options.optimize->criterion == Criterion::Slope);
+    const std::string doubt = is_slope ? slope_unit_doubt(crs, z_unit) : std::string();
+    if (!doubt.empty()) {
+        const bool is_angle =
+            options.data_dependent && options.data_dependent->measure == CreaseMeasure::NormalAngle;
+        warnings.push_back((is_angle ? "angles between normals take z for CRS units: "
+                                     : "slopes are z units per CRS unit: ") +
+                           doubt);
     }
-    if (options.optimize->criterion == Criterion::Slope) {
-        const std::string doubt = slope_unit_doubt(crs, z_unit);
-        if (!doubt.empty()) {
-            warnings.push_back("slopes are z units per CRS unit: " + doubt);
-        }
-    }
-    const std::string not_proven =
-        "the TIN is valid but its worst " + options.criterion_name() + " is not proven optimal";
-    if (result->stopped_by == StoppedBy::Budget) {
-        warnings.push_back("the budget of " + decimal_text(options.optimize->budget_seconds.value_or(0)) +
-                           " s ran out: " + not_proven + "; give a longer --budget");
-    } else if (result->stopped_by == StoppedBy::Interrupt) {
-        warnings.push_back("interrupted while optimising: " + not_proven);
+    const std::string what =
+        options.data_dependent
+            ? "the TIN is valid but flips could lower its sum of creases further"
+            : "the TIN is valid but its worst " + options.criterion_name() + " is not proven optimal";
+    const auto [stopped_by, budget] =
+        result.optimize ? std::pair(result.optimize->stopped_by, options.optimize->budget_seconds)
+        : result.data_dependent
+            ? std::pair(result.data_dependent->stopped_by, options.data_dependent->budget_seconds)
+            : std::pair(StoppedBy::Finished, std::optional<double>());
+    if (stopped_by == StoppedBy::Budget) {
+        warnings.push_back("the budget of " + decimal_text(budget.value_or(0)) + " s ran out: " + what +
+                           "; give a longer --budget");
+    } else if (stopped_by == StoppedBy::Interrupt) {
+        warnings.push_back("interrupted while optimising: " + what);
     }
     return warnings;
 }

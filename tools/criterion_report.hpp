@@ -7,7 +7,7 @@
 
 #include "tinwright/io/crs.hpp"
 #include "tinwright/io/write_tin.hpp"
-#include "tinwright/optimal/edge_insertion.hpp"
+#include "tinwright/optimal/triangulate.hpp"
 
 #include "json_value.hpp"
 #include "options_triangulation.hpp"
@@ -17,7 +17,7 @@ namespace tinwright::tools {
 /// What a TIN was made best at, and how well that went: of one made just now, or of a file by what it says.
 struct CriterionReport {
     std::string name;   ///< "delaunay", "slope", ...; empty: unknown (a foreign TIN)
-    std::string scope;  ///< empty for Delaunay
+    std::string scope;  ///< empty for a criterion that knows none
     std::string unit;   ///< "degree", "ratio", "metre", ..., "CRS unit" for lengths in an unknown one
     std::optional<double> worst;
     std::optional<double> worst_interior;
@@ -26,12 +26,18 @@ struct CriterionReport {
     std::string proven;                    ///< "theorem", "tested" or "false"
     std::string stopped_by;                ///< "finished", "budget" or "interrupt"
     std::optional<OptimizeReport> counts;  ///< of a file only its numbers of ties, tries and so on
+    // Of a data-dependent TIN:
+    std::string delaunay_order;          ///< "3", "none"
+    std::optional<double> sum;           ///< of creases
+    std::optional<double> sum_delaunay;  ///< before flipping
+    std::optional<double> flips;
+    std::optional<double> refused;
     bool is_from_file = false;
 };
 
-/// The report on a TIN made with `options`. `result`: empty for a Delaunay TIN.
-CriterionReport make_criterion_report(const TriangulationOptions& options,
-                                      const std::optional<OptimizeReport>& result, const io::Crs& crs);
+/// The report on a TIN made with `options`.
+CriterionReport make_criterion_report(const TriangulationOptions& options, const TriangulateReport& result,
+                                      const io::Crs& crs);
 
 /// What a file says. Keys that are missing or unreadable are left empty.
 CriterionReport read_criterion_report(const io::TinMetadata& metadata);
@@ -48,7 +54,7 @@ std::vector<std::string> criterion_lines(const CriterionReport& report);
 /// What the user has to be warned of: a result that is not proven because the work was stopped, and slopes
 /// in mixed or unknown units.
 std::vector<std::string> criterion_warnings(const TriangulationOptions& options,
-                                            const std::optional<OptimizeReport>& result, const io::Crs& crs,
+                                            const TriangulateReport& result, const io::Crs& crs,
                                             const std::string& z_unit);
 
 }  // namespace tinwright::tools

@@ -56,14 +56,22 @@ JsonValue raster_json(const RasterReport& raster) {
         .set("products", JsonValue::array_of(raster.written.bands));
 }
 
+/// Of whatever was done to the Delaunay TIN afterwards.
+std::optional<double> optimize_seconds(const TriangulateReport& report) {
+    if (report.optimize) {
+        return report.optimize->seconds;
+    }
+    return report.data_dependent ? std::optional(report.data_dependent->seconds) : std::nullopt;
+}
+
 JsonValue timings_json(const JobReport& report, const Surface& surface) {
     JsonValue timings = JsonValue::object();
     timings.set("read", surface.read_seconds);
     if (surface.report) {
         timings.set("triangulate", surface.report->triangulate_seconds);
         timings.set("constrain", surface.report->constrain_seconds);
-        if (surface.report->optimize) {
-            timings.set("optimize", surface.report->optimize->seconds);
+        if (const std::optional<double> seconds = optimize_seconds(*surface.report)) {
+            timings.set("optimize", *seconds);
         }
     }
     if (report.raster) {
@@ -189,8 +197,8 @@ std::string times_line(const JobReport& report, const Surface& surface) {
     if (surface.report) {
         times += ", triangulate " + fixed(surface.report->triangulate_seconds, 2) + ", domain " +
                  fixed(surface.report->constrain_seconds, 2);
-        if (surface.report->optimize) {
-            times += ", optimise " + fixed(surface.report->optimize->seconds, 2);
+        if (const std::optional<double> seconds = optimize_seconds(*surface.report)) {
+            times += ", optimise " + fixed(*seconds, 2);
         }
     }
     if (report.raster) {
@@ -256,7 +264,7 @@ JsonValue make_json(const JobReport& report, const Surface& surface) {
         json.set("criterion", criterion_json(surface.criterion));
     }
     if (surface.report) {
-        json.set("conforming", surface.report->is_conforming && !surface.report->optimize);
+        json.set("conforming", surface.report->is_conforming && surface.report->is_left_delaunay());
     } else if (surface.lines.is_conforming) {
         json.set("conforming", *surface.lines.is_conforming);
     }

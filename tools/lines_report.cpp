@@ -61,7 +61,7 @@ LinesSummary summarize_lines(const LineOptions& options, const io::Lines& lines,
     }
     summary.constraints = options.constraints_name();
     summary.method = options.method_name();
-    summary.is_conforming = report.is_conforming && !report.optimize;
+    summary.is_conforming = report.is_conforming && report.is_left_delaunay();
     summary.steiner_vertices = report.conforming ? report.conforming->steiner_vertices : 0;
     LineCounts& counts = summary.counts.emplace();
     for (const Breakline& line : lines.lines) {

@@ -8,6 +8,7 @@
 #include "tinwright/geometry/decimal.hpp"
 #include "tinwright/geometry/error.hpp"
 #include "tinwright/io/gdal_session.hpp"
+#include "tinwright/optimal/data_dependent.hpp"
 
 #include "criterion_report.hpp"
 #include "option_values.hpp"
@@ -24,6 +25,11 @@ constexpr auto kCriterionChoices =
                                                            {"height", Criterion::Height},
                                                            {"angle", Criterion::Angle},
                                                            {"eccentricity", Criterion::Eccentricity}});
+
+bool is_heuristic(const std::string& criterion) {
+    return std::any_of(kCreaseMeasures.begin(), kCreaseMeasures.end(),
+                       [&criterion](const auto& named) { return named.first == criterion; });
+}
 
 std::string counted(std::size_t count, const std::string& singular) {
     return std::to_string(count) + " " + singular + (count == 1 ? "" : "s");
@@ -111,6 +117,11 @@ void OptimalityOptions::finish() {
     criterion.reset();
     worst.reset();
     reach = kUsualReach;
+    if (is_heuristic(criterion_text)) {
+        throw UsageError("--criterion " + criterion_text +
+                         " makes a TIN by a heuristic, of which there is nothing to prove; slope, height, "
+                         "angle and eccentricity can be proven");
+    }
     if (!criterion_text.empty()) {
         criterion = choice_value("--criterion", criterion_text, kCriterionChoices);
     }

@@ -3,6 +3,7 @@
 #include <array>
 #include <string_view>
 #include <utility>
+#include <variant>
 
 #include "tinwright/geometry/decimal.hpp"
 
@@ -13,13 +14,18 @@ namespace tinwright::tools {
 namespace {
 
 constexpr const char* kDelaunay = "delaunay";
+constexpr const char* kNoOrder = "none";
 
-constexpr auto kCriterionChoices = std::to_array<std::pair<std::string_view, std::optional<Criterion>>>(
-    {{kDelaunay, std::nullopt},
-     {"slope", Criterion::Slope},
-     {"height", Criterion::Height},
-     {"angle", Criterion::Angle},
-     {"eccentricity", Criterion::Eccentricity}});
+using CriterionChoice = std::variant<std::monostate, Criterion, CreaseMeasure>;
+
+constexpr auto kCriterionChoices =
+    std::to_array<std::pair<std::string_view, CriterionChoice>>({{kDelaunay, std::monostate{}},
+                                                                 {"slope", Criterion::Slope},
+                                                                 {"height", Criterion::Height},
+                                                                 {"angle", Criterion::Angle},
+                                                                 {"eccentricity", Criterion::Eccentricity},
+                                                                 {"normal-angle", CreaseMeasure::NormalAngle},
+                                                                 {"normal-jump", CreaseMeasure::NormalJump}});
 
 constexpr auto kPolicies =
     std::to_array<std::pair<std::string_view, DuplicatePolicy>>({{"error", DuplicatePolicy::Error},
@@ -90,11 +96,21 @@ Scope parse_scope(Criterion criterion, const std::string& text) {
     throw UsageError("--scope takes max, vector, top:P% or above:VALUE, not " + io::quoted(text));
 }
 
+/// Empty: no limit.
+std::optional<int> parse_order(const std::string& text) {
+    if (text == kNoOrder) {
+        return std::nullopt;
+    }
+    return static_cast<int>(whole_value("--delaunay-order", text, 0));
+}
+
 }  // namespace
 
 void TriangulationOptions::add_to(CLI::App& parser, const std::string& default_domain) {
-    add_value(parser, "--criterion", criterion_text, "NAME", "delaunay|slope|height|angle|eccentricity");
+    add_value(parser, "--criterion", criterion_text, "NAME",
+              "delaunay|slope|height|angle|eccentricity|normal-angle|normal-jump");
     add_value(parser, "--scope", scope_text, "SCOPE", "max|vector|top:P%|above:VALUE (default top:0.5%)");
+    add_value(parser, "--delaunay-order", order_text, "K|none", "of flips under normal-* (default 3)");
     add_value(parser, "--budget", budget_text, "SECONDS", "stop optimising after this time");
     add_value(parser, "--domain", domain_text, "RULE",
               "convex|trimmed|concave:LENGTH (default " + default_domain + ")");
@@ -107,23 +123,45 @@ void TriangulationOptions::add_threads_to(CLI::App& parser) {
     add_value(parser, "-j,--threads", threads_text, "N", "threads (default: all processors)");
 }
 
-void TriangulationOptions::finish(DomainRule::Kind default_domain, DuplicatePolicy default_policy) {
+void TriangulationOptions::finish_criterion() {
     optimize = {};
-    const std::optional<Criterion> criterion =
-        criterion_text.empty() ? std::nullopt
-                               : choice_value("--criterion", criterion_text, kCriterionChoices);
-    if (criterion) {
+    data_dependent = {};
+    const CriterionChoice choice = criterion_text.empty()
+                                       ? CriterionChoice()
+                                       : choice_value("--criterion", criterion_text, kCriterionChoices);
+    const auto* criterion = std::get_if<Criterion>(&choice);
+    const auto* measure = std::get_if<CreaseMeasure>(&choice);
+    const std::optional<double> budget =
+        budget_text.empty() ? std::nullopt : std::optional(positive_value("--budget", budget_text));
+    if (!order_text.empty() && measure == nullptr) {
+        throw UsageError("--delaunay-order is for flips: give --criterion normal-angle or normal-jump too");
+    }
+    if (criterion != nullptr) {
         optimize.emplace().criterion = *criterion;
         if (!scope_text.empty()) {
             optimize->scope = parse_scope(*criterion, scope_text);
         }
-        if (!budget_text.empty()) {
-            optimize->budget_seconds = positive_value("--budget", budget_text);
+        optimize->budget_seconds = budget;
+    } else if (!scope_text.empty()) {
+        throw UsageError(measure == nullptr
+                             ? "--scope is for optimising: give --criterion slope, height, angle or "
+                               "eccentricity too"
+                             : "--scope does not apply to --criterion " + criterion_text +
+                                   ", a sum over all edges; --delaunay-order limits its flips");
+    } else if (measure != nullptr) {
+        data_dependent.emplace().measure = *measure;
+        data_dependent->budget_seconds = budget;
+        if (!order_text.empty()) {
+            data_dependent->delaunay_order = parse_order(order_text);
         }
-    } else if (!scope_text.empty() || !budget_text.empty()) {
-        throw UsageError((scope_text.empty() ? std::string("--budget") : std::string("--scope")) +
-                         " is for optimising: give --criterion slope, height, angle or eccentricity too");
+    } else if (budget) {
+        throw UsageError(
+            "--budget is for optimising: give --criterion slope, height, angle or eccentricity too");
     }
+}
+
+void TriangulationOptions::finish(DomainRule::Kind default_domain, DuplicatePolicy default_policy) {
+    finish_criterion();
     domain = domain_text.empty() ? DomainRule{default_domain, 0} : parse_domain(domain_text);
     if (!max_edge_text.empty()) {
         max_edge = positive_value("--max-edge", max_edge_text);
@@ -163,12 +201,19 @@ TriangulateOptions TriangulationOptions::library_options(const Progress& progres
     if (options.optimize) {
         options.optimize->progress = optimize_progress;
     }
+    options.data_dependent = data_dependent;
+    if (options.data_dependent) {
+        options.data_dependent->progress = optimize_progress;
+    }
     options.threads = threads;
     options.progress = progress;
     return options;
 }
 
 std::string TriangulationOptions::criterion_name() const {
+    if (data_dependent) {
+        return choice_name(data_dependent->measure, kCreaseMeasures);
+    }
     return optimize ? std::string(criterion_traits(optimize->criterion).name) : kDelaunay;
 }
 
@@ -190,6 +235,14 @@ std::string TriangulationOptions::scope_name() const {
     return {};
 }
 
+std::string TriangulationOptions::order_name() const {
+    if (!data_dependent) {
+        return {};
+    }
+    const std::optional<int>& order = data_dependent->delaunay_order;
+    return order ? std::to_string(*order) : kNoOrder;
+}
+
 std::string TriangulationOptions::domain_name() const {
     switch (domain.kind) {
         case DomainRule::Kind::Convex:
@@ -208,9 +261,15 @@ std::string TriangulationOptions::canonical() const {
     std::string text = "--criterion " + criterion_name();
     if (optimize) {
         text += " --scope " + scope_name();
-        if (optimize->budget_seconds) {
-            text += " --budget " + decimal_text(*optimize->budget_seconds);
-        }
+    }
+    if (data_dependent) {
+        text += " --delaunay-order " + order_name();
+    }
+    const std::optional<double> budget = optimize         ? optimize->budget_seconds
+                                         : data_dependent ? data_dependent->budget_seconds
+                                                          : std::nullopt;
+    if (budget) {
+        text += " --budget " + decimal_text(*budget);
     }
     text += " --domain " + domain_name();
     if (max_edge) {

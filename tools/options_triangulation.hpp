@@ -15,6 +15,7 @@ struct TriangulationOptions {
     std::string criterion_text;  ///< empty: delaunay
     std::string scope_text;
     std::string budget_text;
+    std::string order_text;
     std::string domain_text;  ///< empty: the command's default
     std::string max_edge_text;
     std::string duplicates_text;
@@ -22,7 +23,8 @@ struct TriangulationOptions {
     std::string threads_text;
 
     // After `finish`:
-    std::optional<OptimizeOptions> optimize;  ///< empty: Delaunay; without progress
+    std::optional<OptimizeOptions> optimize;             ///< without progress; this
+    std::optional<DataDependentOptions> data_dependent;  ///< or this; neither: Delaunay
     DuplicateOptions duplicates;
     DomainRule domain;
     std::optional<double> max_edge;
@@ -42,13 +44,18 @@ struct TriangulationOptions {
                                                      const Progress& optimize_progress) const;
     /// "delaunay", "slope", ...
     [[nodiscard]] std::string criterion_name() const;
-    /// "max", "vector", "top:P%" or "above:VALUE"; empty for Delaunay.
+    /// "max", "vector", "top:P%" or "above:VALUE"; empty for a criterion that knows none.
     [[nodiscard]] std::string scope_name() const;
+    /// "3", "none"; empty for a criterion that knows none.
+    [[nodiscard]] std::string order_name() const;
     /// "convex", "trimmed" or "concave:LENGTH".
     [[nodiscard]] std::string domain_name() const;
     [[nodiscard]] std::string policy_name() const;
     /// The options that affect a TIN's faces, in a fixed order: what outputs record.
     [[nodiscard]] std::string canonical() const;
+
+  private:
+    void finish_criterion();
 };
 
 }  // namespace tinwright::tools

@@ -212,7 +212,8 @@ bool is_existing_tin(const SurfaceRequest& request) {
 
 Surface triangulate_sources(const SurfaceRequest& request, Console& console) {
     // Optimising, where there is any, takes longer than all the rest.
-    const bool is_optimizing = request.triangulation.optimize.has_value();
+    const bool is_optimizing =
+        request.triangulation.optimize.has_value() || request.triangulation.data_dependent.has_value();
     const double triangulate_at = request.progress_end * (is_optimizing ? 0.2 : 0.5);
     const double optimize_at = request.progress_end * (is_optimizing ? 0.3 : 1.0);
     Inputs inputs = read_inputs(request, console, triangulate_at);
@@ -246,10 +247,10 @@ Surface triangulate_sources(const SurfaceRequest& request, Console& console) {
     }
     surface.tin = std::move(made.tin);
     surface.report = std::move(made.report);
-    surface.criterion = make_criterion_report(request.triangulation, surface.report->optimize, surface.crs);
+    surface.criterion = make_criterion_report(request.triangulation, *surface.report, surface.crs);
     std::vector<std::string> warnings = lines_warnings(surface.lines);
     for (std::string& warning :
-         criterion_warnings(request.triangulation, surface.report->optimize, surface.crs, surface.z_unit)) {
+         criterion_warnings(request.triangulation, *surface.report, surface.crs, surface.z_unit)) {
         warnings.push_back(std::move(warning));
     }
     for (const std::string& warning : warnings) {

@@ -17,6 +17,12 @@ TriangulationOptions options_for(const std::string& criterion, const std::string
     return options;
 }
 
+TriangulateReport with(const OptimizeReport& optimum) {
+    TriangulateReport report;
+    report.optimize = optimum;
+    return report;
+}
+
 OptimizeReport sample_result() {
     OptimizeReport result;
     result.before = {12.25, 8.5};
@@ -37,7 +43,7 @@ io::Crs nowhere() { return {}; }
 TEST_SUITE("tools/criterion_report") {
     TEST_CASE("people read what became better, whether that is proven, and what it took") {
         const CriterionReport report =
-            make_criterion_report(options_for("slope"), sample_result(), in_metres());
+            make_criterion_report(options_for("slope"), with(sample_result()), in_metres());
         CHECK(criterion_lines(report) ==
               std::vector<std::string>{
                   "slope, scope top:0.5%", "greatest slope 12.25 -> 4.5 (interior 8.5 -> 3.25)",
@@ -47,7 +53,8 @@ TEST_SUITE("tools/criterion_report") {
 
     TEST_CASE("lengths have the unit of the CRS, angles are degrees") {
         const auto second_line = [](const char* criterion, const io::Crs& crs) {
-            return criterion_lines(make_criterion_report(options_for(criterion), sample_result(), crs)).at(1);
+            return criterion_lines(make_criterion_report(options_for(criterion), with(sample_result()), crs))
+                .at(1);
         };
         CHECK(second_line("height", in_metres()) ==
               "least height 12.25 -> 4.5 metre (interior 8.5 -> 3.25 metre)");
@@ -56,7 +63,7 @@ TEST_SUITE("tools/criterion_report") {
         CHECK(second_line("angle", in_metres()) ==
               "largest angle 12.25 -> 4.5 deg (interior 8.5 -> 3.25 deg)");
         const auto unit = [](const char* criterion, const io::Crs& crs) {
-            return make_criterion_report(options_for(criterion), sample_result(), crs).unit;
+            return make_criterion_report(options_for(criterion), with(sample_result()), crs).unit;
         };
         CHECK(unit("height", in_metres()) == "metre");
         CHECK(unit("height", nowhere()) == "CRS unit");
@@ -69,7 +76,8 @@ TEST_SUITE("tools/criterion_report") {
             OptimizeReport result = sample_result();
             result.proof = proof;
             result.stopped_by = stopped_by;
-            return criterion_lines(make_criterion_report(options_for("slope", scope), result, in_metres()))
+            return criterion_lines(
+                       make_criterion_report(options_for("slope", scope), with(result), in_metres()))
                 .at(2);
         };
         CHECK(third_line("vector", Proof::Theorem, StoppedBy::Finished) ==
@@ -87,7 +95,7 @@ TEST_SUITE("tools/criterion_report") {
 
     TEST_CASE("what a file keeps is read back") {
         const CriterionReport report =
-            make_criterion_report(options_for("height", "vector"), sample_result(), in_metres());
+            make_criterion_report(options_for("height", "vector"), with(sample_result()), in_metres());
         const io::TinMetadata metadata = criterion_metadata(report);
         const CriterionReport read = read_criterion_report(metadata);
         CHECK(criterion_json(read).text() == criterion_json(report).text());
@@ -98,7 +106,8 @@ TEST_SUITE("tools/criterion_report") {
     }
 
     TEST_CASE("a Delaunay TIN, and one that says nothing, have no more than a name") {
-        const CriterionReport report = make_criterion_report(options_for(""), std::nullopt, in_metres());
+        const CriterionReport report =
+            make_criterion_report(options_for(""), TriangulateReport(), in_metres());
         CHECK(criterion_lines(report).empty());
         CHECK(criterion_metadata(report) == io::TinMetadata{{"TINWRIGHT_CRITERION", "delaunay"}});
         CHECK(criterion_json(report).text() == JsonValue::object().set("name", "delaunay").text());
@@ -110,7 +119,7 @@ TEST_SUITE("tools/criterion_report") {
         result.proof = Proof::None;
         result.after.interior.reset();
         const std::string text =
-            criterion_json(make_criterion_report(options_for("slope"), result, in_metres())).text();
+            criterion_json(make_criterion_report(options_for("slope"), with(result), in_metres())).text();
         CHECK(text.find("\"proven\": false") != std::string::npos);
         CHECK(text.find("\"worst_interior\":") == std::string::npos);
     }
@@ -118,19 +127,19 @@ TEST_SUITE("tools/criterion_report") {
     TEST_CASE("a job that was stopped is warned about, with what to do") {
         OptimizeReport result = sample_result();
         result.stopped_by = StoppedBy::Budget;
-        CHECK(criterion_warnings(options_for("angle", "", "5"), result, in_metres(), "") ==
+        CHECK(criterion_warnings(options_for("angle", "", "5"), with(result), in_metres(), "") ==
               std::vector<std::string>{"the budget of 5 s ran out: the TIN is valid but its worst angle is "
                                        "not proven optimal; give a longer --budget"});
         result.stopped_by = StoppedBy::Interrupt;
-        CHECK(criterion_warnings(options_for("height"), result, in_metres(), "") ==
+        CHECK(criterion_warnings(options_for("height"), with(result), in_metres(), "") ==
               std::vector<std::string>{"interrupted while optimising: the TIN is valid but its worst height "
                                        "is not proven optimal"});
-        CHECK(criterion_warnings(options_for(""), std::nullopt, in_metres(), "").empty());
+        CHECK(criterion_warnings(options_for(""), TriangulateReport(), in_metres(), "").empty());
     }
 
     TEST_CASE("slopes in mixed or unknown units are warned about once") {
         const auto warnings = [](const io::Crs& crs, const std::string& z_unit) {
-            return criterion_warnings(options_for("slope"), sample_result(), crs, z_unit);
+            return criterion_warnings(options_for("slope"), with(sample_result()), crs, z_unit);
         };
         const std::string slopes = "slopes are z units per CRS unit: ";
         CHECK(warnings(in_metres(), "metre").empty());
@@ -140,6 +149,6 @@ TEST_SUITE("tools/criterion_report") {
         CHECK(warnings(nowhere(), "") == std::vector{slopes + "the units are unknown"});
         CHECK(warnings(io::Crs::parse("EPSG:4326"), "metre") ==
               std::vector{slopes + "the CRS is in degrees"});
-        CHECK(criterion_warnings(options_for("height"), sample_result(), nowhere(), "").empty());
+        CHECK(criterion_warnings(options_for("height"), with(sample_result()), nowhere(), "").empty());
     }
 }

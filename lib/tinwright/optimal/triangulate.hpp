@@ -51,6 +51,9 @@ struct TriangulateReport {
     std::optional<DataDependentReport> data_dependent;
     double triangulate_seconds = 0;  ///< lattice, sort and Delaunay
     double constrain_seconds = 0;    ///< lines, Steiner points and domain
+
+    /// Whether nothing was flipped or inserted after the Delaunay triangulation.
+    [[nodiscard]] bool is_left_delaunay() const { return !optimize && !data_dependent; }
 };
 
 struct Triangulated {
