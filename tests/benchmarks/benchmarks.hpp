@@ -44,6 +44,8 @@ void run_accuracy(const Settings& settings);
 void run_convergence(const Settings& settings);
 /// Rasters by natural neighbours.
 void run_natural_neighbor(const Settings& settings);
+/// Splines of vertices: preparation, reading, memory.
+void run_smooth(const Settings& settings);
 
 }  // namespace tinwright_benchmarks
 

@@ -46,12 +46,13 @@ constexpr std::array kBenchmarks{Benchmark{"delaunay", run_delaunay},
                                  Benchmark{"clough_tocher", run_clough_tocher},
                                  Benchmark{"accuracy", run_accuracy},
                                  Benchmark{"convergence", run_convergence},
-                                 Benchmark{"natural_neighbor", run_natural_neighbor}};
+                                 Benchmark{"natural_neighbor", run_natural_neighbor},
+                                 Benchmark{"smooth", run_smooth}};
 
 constexpr const char* kUsage =
     "usage: tinwright_benchmarks delaunay|raster|job|read|criteria|criteria_growth|criteria_worst|\n"
     "                            noding|constrained|conforming|contour|clough_tocher|accuracy|\n"
-    "                            convergence|natural_neighbor\n"
+    "                            convergence|natural_neighbor|smooth\n"
     "           [--rounds K] [--scale FRACTION] [--tinwright COMMAND] [--images FOLDER]\n"
     "           [--data FOLDER] [--sets NAME,...] [--methods METHOD[/GRADIENTS][@CRITERION[:ORDER]],...]\n"
     "Prints a table of docs/benchmarks.md or docs/interpolation.md. Medians of K interleaved runs (default "
