@@ -142,8 +142,8 @@ std::vector<std::string> crease_lines(const CriterionReport& report, const std::
                               std::string(report.stopped_by == "budget" ? "the budget" : "an interrupt")
                         : "a heuristic: no flip lowers the sum any more, which proves nothing of other TINs");
     if (report.flips && report.refused) {
-        lines.push_back(short_number(*report.flips) + " flips, " + short_number(*report.refused) +
-                        " refused by the order");
+        lines.push_back(decimal_text(*report.flips) + (*report.flips == 1 ? " flip, " : " flips, ") +
+                        decimal_text(*report.refused) + " refused by the order");
     }
     return lines;
 }

@@ -224,6 +224,40 @@ TEST_SUITE("tools/setup") {
               "--budget is for optimising: give --criterion slope, height, angle or eccentricity too");
     }
 
+    TEST_CASE("data-dependent criteria have an order and no scope") {
+        const auto canonical = [](std::vector<std::string> more) {
+            CommandTin tin;
+            more.insert(more.begin(), {"a.csv", "-o", "b.gpkg"});
+            tin.setup(more);
+            return tin.triangulation.canonical();
+        };
+        const std::string rest = " --domain convex --duplicates error";
+        CHECK(canonical({"--criterion", "normal-angle"}) ==
+              "--criterion normal-angle --delaunay-order 3" + rest);
+        CHECK(canonical({"--criterion", "normal-jump", "--delaunay-order", "none", "--budget", "2"}) ==
+              "--criterion normal-jump --delaunay-order none --budget 2" + rest);
+        CHECK(canonical({"--criterion", "normal-jump", "--delaunay-order", "0"}) ==
+              "--criterion normal-jump --delaunay-order 0" + rest);
+        const auto refusal = [](std::vector<std::string> more) {
+            more.insert(more.begin(), {"a.csv", "-o", "b"});
+            return complaint<CommandTin>(more);
+        };
+        CHECK(refusal({"--criterion", "normal-angle", "--scope", "max"}) ==
+              "--scope does not apply to --criterion normal-angle, a sum over all edges; --delaunay-order "
+              "limits "
+              "its flips");
+        for (const std::string criterion : {"slope", "delaunay"}) {
+            CHECK(refusal({"--criterion", criterion, "--delaunay-order", "1"}) ==
+                  "--delaunay-order is for flips: give --criterion normal-angle or normal-jump too");
+        }
+        CHECK(refusal({"--criterion", "normal-jump", "--delaunay-order", "-1"}) ==
+              "--delaunay-order needs a whole number from 0 up, not \"-1\"");
+        CHECK(
+            complaint<CommandCheck>({"a.gpkg", "--criterion", "normal-jump"}) ==
+            "--criterion normal-jump makes a TIN by a heuristic, of which there is nothing to prove; slope, "
+            "height, angle and eccentricity can be proven");
+    }
+
     TEST_CASE("info counts conflicts instead of failing on them") {
         CommandInfo info;
         info.setup({"a.csv"});
@@ -244,7 +278,8 @@ TEST_SUITE("tools/setup") {
         CHECK(complaint<CommandTin>({"a.csv", "-o", "b", "--domain", "concave:-1"}) ==
               "--domain concave:LENGTH needs a number above zero, not \"-1\"");
         CHECK(complaint<CommandTin>({"a.csv", "-o", "b", "--criterion", "length"}) ==
-              "--criterion takes delaunay, slope, height, angle or eccentricity, not \"length\"");
+              "--criterion takes delaunay, slope, height, angle, eccentricity, normal-angle or normal-jump, "
+              "not \"length\"");
         CHECK(complaint<CommandTin>({"a.csv", "-o", "b", "--duplicates", "any"}) ==
               "--duplicates takes error, first, last, min, max, mean or median, not \"any\"");
         CHECK(complaint<CommandTin>({"a.csv", "-o", "b", "--duplicate-tolerance", "-1"}) ==
