@@ -94,10 +94,10 @@ void CommandSample::setup(const std::vector<std::string>& arguments) {
     }
     interpolation.finish();
     output.finish(false);
+    refuse_same_file("--plot", sample.plot, "-o", output.path);
     check_table_target(output);
     triangulation.finish(DomainRule::Kind::Trimmed);
     talk.finish(is_to_stdout(output));
-    refuse_same_file("--plot", sample.plot, "-o", output.path);
     refuse_same_file("--conflicts", lines.conflicts, "-o", output.path);
     refuse_same_file("--conflicts", lines.conflicts, "--plot", sample.plot);
 }

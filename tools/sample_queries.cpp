@@ -1,9 +1,13 @@
 #include "sample_queries.hpp"
 
-#include <algorithm>
+#include <memory>
+
+#include <gdal_priv.h>
+#include <ogrsf_frmts.h>
 
 #include "tinwright/geometry/error.hpp"
 #include "tinwright/io/gdal_session.hpp"
+#include "tinwright/io/open_source.hpp"
 #include "tinwright/io/read_lines.hpp"
 #include "tinwright/io/read_samples.hpp"
 
@@ -28,8 +32,43 @@ NumberedSources numbered_sources(std::span<const Whereabouts> at) {
     return numbered;
 }
 
-/// Stands for "no elevation is asked for": a constant that every kind of source takes.
+/// Stands for "no elevation is asked for": a constant that all sources take but rasters, which have their
+/// own.
 constexpr const char* kAnyElevation = "0.0";
+
+using SourceKind = io::OpenedSource::Kind;
+
+/// A stream can be read only once, so nobody looks into it first.
+bool is_stream(const io::Source& source) {
+    return source.path == "-" || source.path.find("/vsistdin") != std::string::npos;
+}
+
+SourceKind kind_of(const io::Source& source) {
+    return is_stream(source) ? SourceKind::Text : io::open_source(source).kind;
+}
+
+/// Whether a text that would be read as rows of numbers has lines instead, as WKT.
+bool is_text_of_lines(const io::Source& source) {
+    const bool is_for_samples = source.vertices || source.x_field || source.y_field || is_stream(source) ||
+                                source.format != io::Source::Format::Auto;
+    if (is_for_samples || kind_of(source) != SourceKind::Text) {
+        return false;
+    }
+    const io::GdalMessages messages;
+    try {
+        const io::OpenedSource opened = io::open_line_source(source);
+        for (OGRLayer* const layer : opened.dataset->GetLayers()) {
+            const std::unique_ptr<OGRFeature> feature(layer->GetNextFeature());
+            const OGRGeometry* const geometry = feature ? feature->GetGeometryRef() : nullptr;
+            if (geometry != nullptr && geometry->getDimension() > 0) {
+                return true;
+            }
+        }
+    } catch (const Error&) {
+        return false;  // rows of numbers, which are no vector file
+    }
+    return false;
+}
 
 void warn_of_guess(const io::Crs& crs, const QueryOptions& options, Queries& queries) {
     if (crs.is_known() && !options.crs.is_known()) {
@@ -43,7 +82,11 @@ void read_points(std::span<const Whereabouts> at, const QueryOptions& options, Q
     io::Samples samples;
     if (!numbered.sources.empty()) {
         for (io::Source& source : numbered.sources) {
-            source.z = kAnyElevation;
+            if (kind_of(source) == SourceKind::Raster) {
+                source.z.reset();
+            } else {
+                source.z = kAnyElevation;
+            }
         }
         io::ReadOptions read;
         read.skip_bad = options.skip_bad;
@@ -104,7 +147,7 @@ bool are_lines(std::span<const Whereabouts> at) {
     const io::Source* with_lines = nullptr;
     for (const Whereabouts& where : at) {
         const auto* const source = std::get_if<io::Source>(&where);
-        if (source != nullptr && io::has_lines(*source)) {
+        if (source != nullptr && (io::has_lines(*source) || is_text_of_lines(*source))) {
             with_lines = source;
         } else {
             with_points = &where;
