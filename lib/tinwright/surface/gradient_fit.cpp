@@ -14,7 +14,12 @@ namespace {
 // Neighbours in each octant. One leaves quadrics with little to average over, three reach too far out.
 constexpr unsigned kPerOctant = 2;
 // What a quadric may at most make of errors of the slopes to its neighbours; beyond it a plane is taken.
-constexpr double kMostMagnification = 8;
+constexpr double kMostMagnification = 20;
+// A quadric has to be better than a plane by this factor to be believed at all. Measured: 1 to 2 are about as
+// good on surveys and terrain, 0 is a fifth worse on surveys, on Franke's functions less is better.
+constexpr double kDoubt = 1.5;
+// What is left of a right side that a plane meets, in squares, and rounding with it.
+constexpr double kFlat = 1e-24;
 // A fit is poor if of one of its columns less than this is left beside those before; where there is no other
 // fit to turn to, a column counts until nothing is left but rounding.
 constexpr double kPoor = 1e-5;
@@ -34,23 +39,80 @@ double product(const std::vector<double>& a, const std::vector<double>& b) {
 
 std::span<const GradientWeight> GradientFit::find_stencil(const VertexFan& fan) {
     const Tie tie = find_tie(fan);
+    const VertexId center = tin_.mesh.origin(fan.first);
+    double trust = 0;
     if (method_ == GradientMethod::Octant) {
         search_.find_octants(fan, kPerOctant, false, neighbors_);
-        weigh_by_distance(Model::Quadric);
-        if (fit(Model::Quadric, tie) && magnification(tin_.mesh.origin(fan.first)) <= kMostMagnification) {
+        trust = find_trust(center, tie);
+        weigh_by_distance(3);  // as what a quadric leaves out of a smooth surface grows
+        if (trust > 0 && !(fit(Model::Quadric, tie) && magnification(center) <= kMostMagnification)) {
+            trust = 0;
+        }
+        if (trust == 1) {
             return stencil_;
         }
+        quadric_.swap(stencil_);
     }
     search_.find_ring(fan, neighbors_);
+    fit_ring(fan, tie);
+    if (trust > 0) {
+        for (GradientWeight& term : stencil_) {
+            term.weight = {(1 - trust) * term.weight.x, (1 - trust) * term.weight.y};
+        }
+        for (const GradientWeight& term : quadric_) {
+            stencil_.push_back({term.vertex, {trust * term.weight.x, trust * term.weight.y}});
+        }
+    }
+    return stencil_;
+}
+
+void GradientFit::fit_ring(const VertexFan& fan, const Tie& tie) {
     if (method_ == GradientMethod::Sibson && fan.is_closed) {
         weigh_by_cells();
         if (fit(Model::Plane, tie)) {
-            return stencil_;
+            return;
         }
     }
-    weigh_by_distance(Model::Plane);
+    weigh_by_distance(1);
     fit(Model::Plane, tie);
-    return stencil_;
+}
+
+/// How far the quadric through the octants' vertices is believed, from 0 to 1: by as much as it tells their
+/// slopes better than a plane does, degrees of freedom allowed for. On smooth surfaces nearly all, on rough
+/// ones little, and then a plane errs less.
+double GradientFit::find_trust(VertexId center, const Tie& tie) {
+    const double z = tin_.z[center.value];
+    double slope = 0;  // along the tie, per squared length of it
+    for (unsigned k = 0; k < tie.count; ++k) {
+        slope += tie.term[k].share * (tin_.z[tie.term[k].vertex.value] - z);
+    }
+    slope = tie.count > 0 ? slope / dot(tie.direction, tie.direction) : 0;
+    weigh_by_distance(1);
+    right_side_.clear();
+    for (std::size_t i = 0; i < neighbors_.size(); ++i) {
+        const Point2 offset{neighbors_[i].offset.x, neighbors_[i].offset.y};
+        const double rise = tin_.z[neighbors_[i].vertex.value] - z - slope * dot(tie.direction, offset);
+        right_side_.push_back(row_weight_[i] * rise);
+    }
+    const double of_quadric = find_misfit(Model::Quadric, tie);
+    const double of_plane = find_misfit(Model::Plane, tie);
+    const bool is_plane = !(of_plane > kFlat * product(right_side_, right_side_));
+    return is_plane ? 0 : std::max(0.0, 1 - kDoubt * of_quadric / of_plane);
+}
+
+/// What a model leaves of the right side, its mean square; infinite for what it could not but meet.
+double GradientFit::find_misfit(Model model, const Tie& tie) {
+    make_columns(model, tie);
+    if (neighbors_.size() <= column_count_) {
+        return std::numeric_limits<double>::infinity();
+    }
+    orthogonalize();
+    double left = product(right_side_, right_side_);
+    for (unsigned j = 0; j < column_count_; ++j) {
+        const double part = product(column_[j], right_side_);
+        left -= part * part;
+    }
+    return std::max(0.0, left) / static_cast<double>(neighbors_.size() - column_count_);
 }
 
 Point2 GradientFit::estimate(const VertexFan& fan) {
@@ -96,14 +158,12 @@ GradientFit::Tie GradientFit::find_tie(const VertexFan& fan) const {
             2};
 }
 
-/// Residuals count by the inverse of the distance, so that slopes are fitted. What a quadric leaves out of a
-/// smooth surface grows with the cube of the distance, but what is rough about a surface does not: in
-/// between.
-void GradientFit::weigh_by_distance(Model model) {
+/// Residuals count by the inverse of the distance to a power, 1 or 3: 1 where slopes are to be met.
+void GradientFit::weigh_by_distance(int power) {
     row_weight_.clear();
     for (const VertexNeighbor& neighbor : neighbors_) {
         const double distance = std::sqrt(neighbor.distance2);
-        row_weight_.push_back(1 / (model == Model::Quadric ? distance * std::sqrt(distance) : distance));
+        row_weight_.push_back(power == 1 ? 1 / distance : 1 / (distance * neighbor.distance2));
     }
 }
 
@@ -117,18 +177,19 @@ void GradientFit::weigh_by_cells() {
 /// Fills `stencil_` from the neighbours and their weights; whether they determine all of the model. What they
 /// do not determine of a plane, few as they are or all on one line, is taken to be zero.
 bool GradientFit::fit(Model model, const Tie& tie) {
+    make_columns(model, tie);
+    const bool is_determined = orthogonalize();
+    make_stencil(tie);
+    return is_determined;
+}
+
+void GradientFit::make_columns(Model model, const Tie& tie) {
     double farthest2 = 0;
     for (const VertexNeighbor& neighbor : neighbors_) {
         farthest2 = std::max(farthest2, neighbor.distance2);
     }
     const double scale = 1 / std::sqrt(farthest2);
-    make_columns(model, tie, scale);
-    const bool is_determined = orthogonalize();
-    make_stencil(tie, scale);
-    return is_determined;
-}
-
-void GradientFit::make_columns(Model model, const Tie& tie, double scale) {
+    scale_ = scale;
     const bool is_tied = tie.count > 0;
     const unsigned first_linear = model == Model::Quadric ? 3 : 0;
     column_count_ = first_linear + (is_tied ? 1 : 2);
@@ -198,7 +259,8 @@ bool GradientFit::orthogonalize() {
     return is_determined;
 }
 
-void GradientFit::make_stencil(const Tie& tie, double scale) {
+void GradientFit::make_stencil(const Tie& tie) {
+    const double scale = scale_;
     stencil_.clear();
     const unsigned y = column_count_ - 1;
     if (tie.count == 0) {

@@ -13,9 +13,9 @@ namespace tinwright {
 
 /// Estimates the gradient that the faces of a fan have in common. For one thread.
 ///
-/// A gradient is linear in the elevations: a stencil is a list of vertices, some perhaps more than once, and
-/// the gradient is the sum of weight times (z - z of the fan's own vertex), here in z units over steps of the
-/// TIN's lattice.
+/// A gradient is a weighted sum of elevations: a stencil is a list of vertices, some perhaps more than once,
+/// and the gradient is the sum of weight times (z - z of the fan's own vertex), here in z units over steps of
+/// the TIN's lattice.
 ///
 /// Where a fan begins or ends at a sharp edge the gradient is tied: along the line it has the slope of the
 /// parabola through the line's three points, or at the end of a line, or where it meets the border, that of
@@ -47,12 +47,15 @@ class GradientFit {
 
     [[nodiscard]] Tie find_tie(const VertexFan& fan) const;
     bool fit(Model model, const Tie& tie);
-    void weigh_by_distance(Model model);
+    void fit_ring(const VertexFan& fan, const Tie& tie);
+    double find_trust(VertexId center, const Tie& tie);
+    double find_misfit(Model model, const Tie& tie);
+    void weigh_by_distance(int power);
     void weigh_by_cells();
-    void make_columns(Model model, const Tie& tie, double scale);
+    void make_columns(Model model, const Tie& tie);
     double subtract_others(unsigned j, double before);
     bool orthogonalize();
-    void make_stencil(const Tie& tie, double scale);
+    void make_stencil(const Tie& tie);
     [[nodiscard]] double magnification(VertexId center) const;
 
     static constexpr unsigned kMostColumns = 5;
@@ -66,7 +69,10 @@ class GradientFit {
     std::array<std::vector<double>, kMostColumns> column_;  // those of the gradient last
     unsigned column_count_ = 0;
     std::array<std::array<double, kMostColumns>, kMostColumns> r_{};
+    double scale_ = 1;  // of the columns to steps
+    std::vector<double> right_side_;
     std::vector<GradientWeight> stencil_;
+    std::vector<GradientWeight> quadric_;
 };
 
 }  // namespace tinwright

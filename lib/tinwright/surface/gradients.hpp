@@ -16,7 +16,8 @@ namespace tinwright {
 /// How gradients at vertices are estimated, the second step of surface interpolation [tan1993, Sec. 1.1].
 enum class GradientMethod : std::uint8_t {
     Ring,    ///< plane through the vertex, least squares over its neighbours, weights 1 / distance^2
-    Octant,  ///< quadric through the vertex, least squares over the nearest vertices of eight octants
+    Octant,  ///< quadric through the vertex, least squares over the nearest two vertices of each octant,
+             ///< mixed with Ring's plane by as much as it explains these vertices no better
     Sibson   ///< as Ring, with the vertex's natural-neighbour weights over distance^2
 };
 inline constexpr std::array kGradientMethods{std::pair{std::string_view("ring"), GradientMethod::Ring},
@@ -32,12 +33,12 @@ struct GradientWeight {
 /// The gradient of the surface at each corner of each terrain face, z units over CRS units.
 ///
 /// Estimated once for all faces around a vertex between one wall (a sharp edge or the border) and the next,
-/// from vertices on their side of walls only (`vertex_neighbors.hpp`); where an octant's quadric is poorly
-/// determined the ring's plane is taken. Interpolators keep sharp edges straight between their vertices, so
-/// at a corner with a sharp edge the gradient has that edge's slope along it, on either side of it, and along
-/// the corner's other edge what it was estimated to be: the surface is continuous across sharp edges, and
-/// the faces of a fan agree but for the first edges beside a line, and there too where the line is straight
-/// and its slope stays the same.
+/// from vertices on their side of walls only (`vertex_neighbors.hpp`); where the octants'
+/// quadric is poorly determined the ring's plane is taken. Interpolators keep sharp edges straight between
+/// their vertices, so at a corner with a sharp edge the gradient has that edge's slope along it, on either
+/// side of it, and along the corner's other edge what it was estimated to be: the surface is continuous
+/// across sharp edges, and the faces of a fan agree but for the first edges beside a line, and there too
+/// where the line is straight and its slope stays the same.
 class CornerGradients {
   public:
     /// `tin` must outlive it. O(n), parallel inside the caller's task arena; the result does not depend on
