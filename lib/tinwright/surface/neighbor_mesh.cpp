@@ -37,8 +37,12 @@ bool is_flat(const Tin& tin, HalfEdgeId h, const InCircle& in_circle) {
 
 bool is_delaunay(const Tin& tin, const SharpEdges& sharp) {
     const TriangleMesh& mesh = tin.mesh;
+    const auto in_circle = [](Key2 a, Key2 b, Key2 c, Key2 d) {
+        const int fast = internal::incircle_double(a, b, c, d);
+        return fast != internal::kUnsure ? fast : incircle(a, b, c, d);
+    };
     const auto is_right = [&](HalfEdgeId h) {
-        return mesh.twin(h) < h || is_closed(mesh, sharp, h) || is_flat(tin, h, incircle);
+        return mesh.twin(h) < h || is_closed(mesh, sharp, h) || is_flat(tin, h, in_circle);
     };
     using Slots = tbb::blocked_range<std::uint32_t>;
     return tbb::parallel_reduce(
