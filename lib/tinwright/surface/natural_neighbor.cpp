@@ -27,7 +27,7 @@ Point2 gradient_of(const Tin& tin, FaceId f, double step) {
 /// What all readers of one surface share.
 struct Surface {
     Surface(const Tin& own, const SharpEdges& sharp, const NaturalNeighborOptions& options)
-        : tin(own), kind(options.kind), lattice(own), mesh(own, sharp) {
+        : tin(own), kind(options.kind), lattice(own), mesh(own, sharp, lattice) {
         if (kind == Kind::C1) {
             gradients.emplace(mesh.tin(), mesh.sharp(), options.gradients);
         }
@@ -57,9 +57,7 @@ class NaturalNeighborReader final : public SurfaceReader {
 
   private:
     [[nodiscard]] double z(VertexId v) const { return surface_.tin.z[v.value]; }
-    [[nodiscard]] NeighborPlace find(const SurfacePlace& place) const {
-        return surface_.mesh.find(place, surface_.lattice);
-    }
+    [[nodiscard]] NeighborPlace find(const SurfacePlace& place) const { return surface_.mesh.find(place); }
     [[nodiscard]] SurfaceReading read_vertex(const SurfacePlace& place, const NeighborPlace& vertex) const;
     /// Sums over the neighbours; elevations count from the first one's, so that their size costs nothing.
     [[nodiscard]] double mean() const;

@@ -1,6 +1,7 @@
 #include "tinwright/surface/neighbor_cavity.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "tinwright/surface/step_vectors.hpp"
@@ -65,34 +66,26 @@ Point2 doubled_center(const RimTriangle& triangle, const LocalKey& a, const Loca
 }  // namespace
 
 NeighborCavity::NeighborCavity(const NeighborMesh& mesh, const QueryLattice& lattice)
-    : tin_(mesh.tin()), sharp_(mesh.sharp()), lattice_(lattice) {
-    neighbors_.resize(16);
+    : tin_(mesh.tin()), sharp_(mesh.sharp()), circles_(mesh.circles()), lattice_(lattice) {
+    make_room(16);
 }
 
-/// A vertex that is a neighbour if what is across its rim edge does not change that.
-[[gnu::always_inline]] inline NaturalNeighbor NeighborCavity::neighbor(VertexId v, HalfEdgeId edge,
-                                                                       std::size_t next_one, Key2 at) const {
-    return {internal::localize(lattice_.scaled(tin_.key(v)), at),
-            0,
-            v,
-            edge,
-            static_cast<std::uint32_t>(next_one),
-            false};
+[[gnu::always_inline]] inline void NeighborCavity::add_neighbor(VertexId v, Key2 at) {
+    NaturalNeighbor& added = neighbors_[count_++];
+    added.at = internal::localize(lattice_.scaled(tin_.key(v)), at);
+    added.vertex = v;
+    added.share = 0;
 }
 
-// With hardly a branch, so that the answers for two edges overlap.
-[[gnu::always_inline]] inline bool NeighborCavity::is_inside(const NaturalNeighbor& a,
-                                                             const NaturalNeighbor& b, Key2 at) const {
-    const TriangleMesh& mesh = tin_.mesh;
-    const auto key = [&](VertexId v) { return lattice_.scaled(tin_.key(v)); };
-    const HalfEdgeId across = mesh.twin(a.edge);
-    const bool is_open = mesh.is_terrain(face_of(across)) && !sharp_.is_sharp(across);
-    const VertexId vertex = is_open ? mesh.origin(previous(across)) : a.vertex;
-    int side = internal::incircle_local(b.at, a.at, internal::localize(key(vertex), at));
-    if (side == internal::kUnsure && is_open) [[unlikely]] {
-        side = incircle(key(b.vertex), key(a.vertex), key(vertex), at);
-    }
-    return is_open && side > 0;
+// Which edges the cavity goes on through is anyone's guess, so no branch depends on it: an edge is written
+// where the next edge to cross goes, and where the next rim edge goes, and one of the two stays.
+[[gnu::always_inline]] inline void NeighborCavity::look_at(const Side& side, Key2 at) {
+    const bool is_open = circles_.is_inside(face_of(tin_.mesh.twin(side.edge)), at) &
+                         static_cast<int>(!sharp_.is_sharp(side.edge));
+    crossed_[crossed_count_] = side;
+    rim_[rim_count_] = side;
+    crossed_count_ += is_open ? 1 : 0;
+    rim_count_ += is_open ? 0 : 1;
 }
 
 template <bool kAreas>
@@ -105,40 +98,40 @@ void NeighborCavity::grow(const NeighborPlace& place, Key2 at) {
             w.share += shares.w;
         }
     };
-    // The rim is a ring of neighbours, each of which knows the next one and the half-edge there.
     const TriangleMesh& mesh = tin_.mesh;
-    HalfEdgeId edge = place.edge;
-    count_ = 3;
-    for (std::uint32_t i = 0; i < 3; ++i, edge = next(edge)) {
-        neighbors_[i] = neighbor(mesh.origin(edge), edge, i == 2 ? 0 : i + 1, at);
+    count_ = 0;
+    crossed_count_ = 0;
+    rim_count_ = 0;
+    const std::array<HalfEdgeId, 3> first{place.edge, next(place.edge), previous(place.edge)};
+    for (const HalfEdgeId edge : first) {
+        add_neighbor(mesh.origin(edge), at);
     }
     add_shares(neighbors_[0], neighbors_[1], neighbors_[2]);
-    for (std::uint32_t i = 0; i < 3; ++i) {
-        neighbors_[i].is_open = is_inside(neighbors_[i], neighbors_[neighbors_[i].next], at);
-    }
     is_on_edge_ = place.kind == NeighborPlace::Kind::Edge;
-    neighbors_[0].is_open = neighbors_[0].is_open && !is_on_edge_;
-    std::uint32_t i = 0;
-    do {
-        while (neighbors_[i].is_open) {
-            if (count_ == neighbors_.size()) {
-                neighbors_.resize(2 * count_);
-            }
-            NaturalNeighbor& a = neighbors_[i];
-            NaturalNeighbor& b = neighbors_[a.next];
-            NaturalNeighbor& s = neighbors_[count_];
-            const HalfEdgeId across = mesh.twin(a.edge);
-            s = neighbor(mesh.origin(previous(across)), previous(across), a.next, at);
-            a.edge = next(across);
-            a.next = static_cast<std::uint32_t>(count_);
-            const bool is_before_open = is_inside(a, s, at);
-            s.is_open = is_inside(s, b, at);
-            a.is_open = is_before_open;
-            add_shares(b, a, s);
-            ++count_;
+    if (!is_on_edge_) {
+        look_at({first[0], 0, 1}, at);
+    }
+    look_at({first[1], 1, 2}, at);
+    look_at({first[2], 2, 0}, at);
+    // Every face beyond brings one more neighbour.
+    for (std::size_t i = 0; i < crossed_count_; ++i) {
+        const Side side = crossed_[i];
+        const HalfEdgeId across = mesh.twin(side.edge);
+        const auto s = static_cast<std::uint32_t>(count_);
+        if (count_ + 3 > neighbors_.size()) {
+            make_room(2 * neighbors_.size());
         }
-        i = neighbors_[i].next;
-    } while (i != 0);
+        add_neighbor(mesh.origin(previous(across)), at);
+        add_shares(neighbors_[side.b], neighbors_[side.a], neighbors_[s]);
+        look_at({next(across), side.a, s}, at);
+        look_at({previous(across), s, side.b}, at);
+    }
+}
+
+void NeighborCavity::make_room(std::size_t count) {
+    neighbors_.resize(count);
+    crossed_.resize(2 * count);  // one for each neighbour but three, and those of the rim still to be crossed
+    rim_.resize(count);
 }
 
 void NeighborCavity::find(const NeighborPlace& place, Key2 at, ShareKind kind) {
@@ -147,9 +140,14 @@ void NeighborCavity::find(const NeighborPlace& place, Key2 at, ShareKind kind) {
     } else {
         grow<false>(place, at);
     }
-    for (std::size_t i = is_on_edge_ ? 1 : 0; i < count_; ++i) {
-        NaturalNeighbor& a = neighbors_[i];
-        NaturalNeighbor& b = neighbors_[a.next];
+    neighbors_[0].next = 1;  // on an edge, which is no side of a triangle with the place
+    neighbors_[0].edge = place.edge;
+    for (std::size_t i = 0; i < rim_count_; ++i) {
+        const Side side = rim_[i];
+        NaturalNeighbor& a = neighbors_[side.a];
+        NaturalNeighbor& b = neighbors_[side.b];
+        a.next = side.b;
+        a.edge = side.edge;
         const RimTriangle triangle(a.at, b.at);
         const bool is_area = kind == ShareKind::Sibson;
         a.share += is_area ? b.at.square * triangle.cotangent_a : triangle.cotangent_b;

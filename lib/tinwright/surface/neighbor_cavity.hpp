@@ -64,7 +64,6 @@ struct NaturalNeighbor {
     VertexId vertex{};
     HalfEdgeId edge{};     ///< to the next neighbour counter-clockwise, of a face of the cavity
     std::uint32_t next{};  ///< index of that neighbour
-    bool is_open = false;  ///< false once the cavity is found: it goes on across `edge`
 };
 
 enum class ShareKind : std::uint8_t { Sibson, Laplace };
@@ -89,9 +88,16 @@ class NeighborCavity {
     [[nodiscard]] bool is_on_edge() const { return is_on_edge_; }
 
   private:
-    [[nodiscard]] NaturalNeighbor neighbor(VertexId v, HalfEdgeId edge, std::size_t next_one, Key2 at) const;
-    /// Whether the face across the rim edge from a to b belongs to the cavity too.
-    [[nodiscard]] bool is_inside(const NaturalNeighbor& a, const NaturalNeighbor& b, Key2 at) const;
+    /// A half-edge of a face of the cavity, from neighbour a to neighbour b.
+    struct Side {
+        HalfEdgeId edge{};
+        std::uint32_t a = 0;
+        std::uint32_t b = 0;
+    };
+
+    void add_neighbor(VertexId v, Key2 at);
+    void look_at(const Side& side, Key2 at);
+    void make_room(std::size_t count);
     template <bool kAreas>
     void grow(const NeighborPlace& place, Key2 at);
     void correct_areas();
@@ -102,9 +108,14 @@ class NeighborCavity {
 
     const Tin& tin_;
     const SharpEdges& sharp_;
+    const FaceCircles& circles_;
     const QueryLattice& lattice_;
-    std::vector<NaturalNeighbor> neighbors_;  // the first count_, and room
+    std::vector<NaturalNeighbor> neighbors_;  // the first ones; the rest is room, likewise below
+    std::vector<Side> crossed_;
+    std::vector<Side> rim_;
     std::size_t count_ = 0;
+    std::size_t crossed_count_ = 0;
+    std::size_t rim_count_ = 0;
     std::vector<Point2> gradients_;
     std::vector<double> sides_;   // sums of cotangents
     std::vector<double> across_;  // for a place on an edge: derivatives of the shares across it

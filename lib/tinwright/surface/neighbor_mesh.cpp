@@ -27,22 +27,13 @@ bool is_closed(const TriangleMesh& mesh, const SharpEdges& sharp, HalfEdgeId h) 
 /// The vertex of h's face that is not on h.
 VertexId apex(const TriangleMesh& mesh, HalfEdgeId h) { return mesh.origin(previous(h)); }
 
-/// `incircle` for the apex across an edge between two faces that are no ghosts.
-template <class InCircle>
-bool is_flat(const Tin& tin, HalfEdgeId h, const InCircle& in_circle) {
+bool is_delaunay(const Tin& tin, const SharpEdges& sharp, const FaceCircles& circles,
+                 const QueryLattice& lattice) {
     const TriangleMesh& mesh = tin.mesh;
-    return in_circle(tin.key(mesh.origin(h)), tin.key(mesh.destination(h)), tin.key(apex(mesh, h)),
-                     tin.key(apex(mesh, mesh.twin(h)))) <= 0;
-}
-
-bool is_delaunay(const Tin& tin, const SharpEdges& sharp) {
-    const TriangleMesh& mesh = tin.mesh;
-    const auto in_circle = [](Key2 a, Key2 b, Key2 c, Key2 d) {
-        const int fast = internal::incircle_double(a, b, c, d);
-        return fast != internal::kUnsure ? fast : incircle(a, b, c, d);
-    };
     const auto is_right = [&](HalfEdgeId h) {
-        return mesh.twin(h) < h || is_closed(mesh, sharp, h) || is_flat(tin, h, in_circle);
+        const HalfEdgeId other = mesh.twin(h);
+        return other < h || is_closed(mesh, sharp, h) ||
+               !circles.is_inside(face_of(h), lattice.scaled(tin.key(apex(mesh, other))));
     };
     using Slots = tbb::blocked_range<std::uint32_t>;
     return tbb::parallel_reduce(
@@ -81,7 +72,8 @@ void make_delaunay_inside(Tin& tin, std::vector<HalfEdgeId> suspects) {
         const HalfEdgeId h = suspects.back();
         suspects.pop_back();
         if (mesh.is_constrained(h) || !mesh.is_terrain(face_of(mesh.twin(h))) ||
-            is_flat(tin, h, incircle_perturbed)) {
+            incircle_perturbed(tin.key(mesh.origin(h)), tin.key(mesh.destination(h)), tin.key(apex(mesh, h)),
+                               tin.key(apex(mesh, mesh.twin(h)))) < 0) {
             continue;
         }
         flip_edge(mesh, h);
@@ -219,8 +211,12 @@ std::optional<NeighborPlace> find_edge(const NeighborMesh& mesh, FaceId start, N
 
 }  // namespace
 
-NeighborMesh::NeighborMesh(const Tin& tin, const SharpEdges& sharp) : tin_(tin), sharp_(sharp) {
-    if (is_delaunay(tin, sharp)) {
+NeighborMesh::NeighborMesh(const Tin& tin, const SharpEdges& sharp, const QueryLattice& lattice)
+    : tin_(tin),
+      lattice_(lattice),
+      sharp_(sharp),
+      circles_(std::make_unique<const FaceCircles>(tin, lattice)) {
+    if (is_delaunay(tin, sharp, *circles_, lattice)) {
         return;
     }
     auto copy = std::make_unique<Tin>(tin);
@@ -228,20 +224,21 @@ NeighborMesh::NeighborMesh(const Tin& tin, const SharpEdges& sharp) : tin_(tin),
     make_delaunay_inside(*copy, free_edges(copy->mesh, sharp));
     copy_sharp_ = SharpEdges(*copy, {});  // constrained, and no line says why
     copy_ = std::move(copy);
+    circles_ = std::make_unique<const FaceCircles>(*copy_, lattice);
 }
 
-NeighborPlace NeighborMesh::find_exactly(const SurfacePlace& place, const QueryLattice& lattice) const {
-    const NeighborPlace here = walk(tin_, sharp_, lattice, place);
-    return copy_ ? in_copy(here, place.at, lattice) : here;
+NeighborPlace NeighborMesh::find_exactly(const SurfacePlace& place) const {
+    const NeighborPlace here = walk(tin_, sharp_, lattice_, place);
+    return copy_ ? in_copy(here, place.at) : here;
 }
 
-NeighborPlace NeighborMesh::in_copy(const NeighborPlace& place, Key2 at, const QueryLattice& lattice) const {
+NeighborPlace NeighborMesh::in_copy(const NeighborPlace& place, Key2 at) const {
     const FaceId start = face_of(place.edge);
     const TriangleMesh& mesh = tin_.mesh;
     std::optional<NeighborPlace> found;
     switch (place.kind) {
         case NeighborPlace::Kind::Face:
-            found = find_face(*this, start, at, lattice);
+            found = find_face(*this, start, at, lattice_);
             break;
         case NeighborPlace::Kind::Edge:
             found =

@@ -6,6 +6,7 @@
 
 #include "tinwright/geometry/predicates_internal.hpp"
 #include "tinwright/mesh/tin.hpp"
+#include "tinwright/surface/face_circles.hpp"
 #include "tinwright/surface/sharp_edges.hpp"
 #include "tinwright/surface/surface_place.hpp"
 
@@ -31,15 +32,18 @@ struct NeighborPlace {
 /// within the same closed edges, so a face of the TIN is where the search in the copy begins.
 class NeighborMesh {
   public:
-    /// `tin` must outlive it. O(n), and O(1) a flip, in practice a few a vertex. Memory: 1 byte a face with
-    /// sharp edges; where a copy is needed, that of a TIN.
-    NeighborMesh(const Tin& tin, const SharpEdges& sharp);
+    /// `tin` and its lattice must outlive it. O(n), and O(1) a flip, in practice a few a vertex; parallel
+    /// inside the caller's task arena but for flips. Memory: 64 bytes a vertex, 1 byte a face with sharp
+    /// edges; where a copy is needed, that of a TIN.
+    NeighborMesh(const Tin& tin, const SharpEdges& sharp, const QueryLattice& lattice);
 
     /// The TIN or the copy, with all closed interior edges constrained; same vertices.
     [[nodiscard]] const Tin& tin() const { return copy_ ? *copy_ : tin_; }
     [[nodiscard]] bool is_copy() const { return copy_ != nullptr; }
     /// The sharp edges of `tin()`.
     [[nodiscard]] const SharpEdges& sharp() const { return copy_ ? copy_sharp_ : sharp_; }
+    /// The circles of its faces.
+    [[nodiscard]] const FaceCircles& circles() const { return *circles_; }
     /// Whether no cavity goes on through a terrain face's half-edge.
     [[nodiscard]] bool is_closed(HalfEdgeId h) const {
         const TriangleMesh& mesh = tin().mesh;
@@ -47,16 +51,16 @@ class NeighborMesh {
     }
 
     /// `place`: of the TIN given. O(1) for a TIN used as it is.
-    [[nodiscard]] NeighborPlace find(const SurfacePlace& place, const QueryLattice& lattice) const {
-        return !copy_ && is_clearly_inside(place, lattice)
+    [[nodiscard]] NeighborPlace find(const SurfacePlace& place) const {
+        return !copy_ && is_clearly_inside(place)
                    ? NeighborPlace{NeighborPlace::Kind::Face, half_edge(place.face, 0)}
-                   : find_exactly(place, lattice);
+                   : find_exactly(place);
     }
 
   private:
-    [[nodiscard]] bool is_clearly_inside(const SurfacePlace& place, const QueryLattice& lattice) const {
+    [[nodiscard]] bool is_clearly_inside(const SurfacePlace& place) const {
         const auto corner = [&](unsigned i) {
-            return internal::localize(lattice.scaled(tin_.key(tin_.mesh.vertex(place.face, i))), place.at);
+            return internal::localize(lattice_.scaled(tin_.key(tin_.mesh.vertex(place.face, i))), place.at);
         };
         const internal::LocalKey a = corner(0);
         const internal::LocalKey b = corner(1);
@@ -64,14 +68,15 @@ class NeighborMesh {
         return internal::orient2d_local(a, b) == 1 && internal::orient2d_local(b, c) == 1 &&
                internal::orient2d_local(c, a) == 1;
     }
-    [[nodiscard]] NeighborPlace find_exactly(const SurfacePlace& place, const QueryLattice& lattice) const;
-    [[nodiscard]] NeighborPlace in_copy(const NeighborPlace& place, Key2 at,
-                                        const QueryLattice& lattice) const;
+    [[nodiscard]] NeighborPlace find_exactly(const SurfacePlace& place) const;
+    [[nodiscard]] NeighborPlace in_copy(const NeighborPlace& place, Key2 at) const;
 
     const Tin& tin_;
+    const QueryLattice& lattice_;
     SharpEdges sharp_;  // of tin_
     std::unique_ptr<const Tin> copy_;
     SharpEdges copy_sharp_;
+    std::unique_ptr<const FaceCircles> circles_;  // of tin()
 };
 
 }  // namespace tinwright
