@@ -191,7 +191,8 @@ void run_contour(const Settings& settings) {
                                           Terrain{"rolling, 0.5 m", uniform_points(count), 0.5},
                                           Terrain{"rough, 5 m", fractal_points(count), 5}};
     for (const Terrain& terrain : terrains) {
-        const auto& [name, points, interval] = terrain;
+        const Points& points = terrain.points;
+        const double interval = terrain.interval;
         const std::array<std::function<Measured()>, 6> contenders{
             [&] { return measure_in_child(our_lines(points, interval, 1, true)); },
             [&] { return measure_in_child(gdal_contours(points, interval, false)); },
@@ -200,7 +201,7 @@ void run_contour(const Settings& settings) {
             [&] { return measure_in_child(our_bands(points, interval)); },
             [&] { return measure_in_child(gdal_contours(points, interval, true)); }};
         const std::vector<Measured> results = measure_in_turn(contenders, settings.rounds);
-        const std::string label = name;
+        const std::string label = terrain.name;
         table.add(label + ": features of a layer in memory", in_seconds(results[0].cpu_seconds),
                   in_seconds(results[1].cpu_seconds), results[0].cpu_seconds / results[1].cpu_seconds,
                   at_most(0.25));

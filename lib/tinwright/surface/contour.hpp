@@ -38,9 +38,9 @@ struct LevelLines {
 /// Lines are in the order of their smallest edge, an edge being named by its ends' ids, the smaller first;
 /// closed ones begin there. Nothing depends on the order of faces, or on the number of threads.
 ///
-/// O(faces + crossings + n log levels), parallel inside the caller's task arena. Memory: 32 bytes a vertex,
-/// 8 a face and 4 more for each thread, 4 a crossing of a face and a level, and the lines. Throws Cancelled,
-/// and UsageError for more than 5 * 10^8 such crossings.
+/// O(faces + crossings + n log levels), parallel inside the caller's task arena. Memory: 36 bytes a vertex,
+/// 20 a face, 32 a crossing of a face and a level, and twice the lines. Throws Cancelled, and UsageError for
+/// more than 2 * 10^8 such crossings.
 std::vector<LevelLines> make_contours(const Tin& tin, std::span<const double> levels,
                                       const Progress& progress = {});
 /// The same of any mesh, with a position for each of its vertices.

@@ -1,9 +1,8 @@
 #include "tinwright/surface/contour_sites.hpp"
 
-#include <string>
-
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include "tinwright/geometry/error.hpp"
 
@@ -18,19 +17,29 @@ void ContourSites::fill(const PointOf& point_of) {
             const auto low = std::lower_bound(levels_.begin(), levels_.end(), p.z);
             const bool is_at = low != levels_.end() && *low == p.z;
             const auto below = static_cast<std::uint32_t>(low - levels_.begin());
+            below_[v] = below;
             sites_[v] = {p.x, p.y, p.z, below, below + (is_at ? 1U : 0U)};
         }
     });
 }
 
 ContourSites::ContourSites(const Tin& tin, std::span<const double> levels)
-    : sites_(tin.vertex_count()), levels_(levels) {
+    : sites_(tin.vertex_count()), below_(tin.vertex_count()), levels_(levels) {
     fill([&tin](std::size_t v) { return tin.position({static_cast<std::uint32_t>(v)}); });
 }
 
 ContourSites::ContourSites(std::span<const Point3> vertices, std::span<const double> levels)
-    : sites_(vertices.size()), levels_(levels) {
+    : sites_(vertices.size()), below_(vertices.size()), levels_(levels) {
     fill([&vertices](std::size_t v) { return vertices[v]; });
+}
+
+void require_few_crossings(std::size_t count) {
+    constexpr std::size_t kLimit = 200'000'000;
+    if (count > kLimit) {
+        throw UsageError(
+            "contours would cross faces more than 200 million times: choose a larger interval or fewer "
+            "levels");
+    }
 }
 
 LevelLists list_by_level(std::span<const LevelRange> ranges, std::size_t levels) {
@@ -49,19 +58,15 @@ LevelLists list_by_level(std::span<const LevelRange> ranges, std::size_t levels)
         count += change[i];
         lists.begin[i + 1] = lists.begin[i] + static_cast<std::size_t>(count);
     }
-    constexpr std::size_t kEntryLimit = 500'000'000;
-    if (lists.begin.back() > kEntryLimit) {
-        throw UsageError("contours would cross faces " + std::to_string(lists.begin.back()) +
-                         " times, more than 500 million: choose a larger interval or fewer levels");
-    }
+    require_few_crossings(lists.begin.back());
     lists.items.resize(lists.begin.back());
     // Each task fills the lists of some levels and looks at all items for it.
-    constexpr std::size_t kTasks = 8;
-    tbb::parallel_for(std::size_t{0}, kTasks, [&](std::size_t task) {
+    const auto tasks = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
+    tbb::parallel_for(std::size_t{0}, tasks, [&](std::size_t task) {
         const auto bound = [&](std::size_t part) {
-            const std::size_t entries = lists.items.size() * part / kTasks;
+            const std::size_t entries = lists.items.size() * part / tasks;
             const auto at = std::lower_bound(lists.begin.begin(), lists.begin.end(), entries);
-            return part == kTasks ? levels : static_cast<std::size_t>(at - lists.begin.begin());
+            return part == tasks ? levels : static_cast<std::size_t>(at - lists.begin.begin());
         };
         const auto low = static_cast<std::uint32_t>(bound(task));
         const auto high = static_cast<std::uint32_t>(bound(task + 1));
@@ -89,9 +94,9 @@ LargeVector<LevelRange> crossed_levels(const TriangleMesh& mesh, const ContourSi
                 ranges[i] = {0, 0};
                 continue;
             }
-            const std::uint32_t a = sites[mesh.vertex(f, 0)].below;
-            const std::uint32_t b = sites[mesh.vertex(f, 1)].below;
-            const std::uint32_t c = sites[mesh.vertex(f, 2)].below;
+            const std::uint32_t a = sites.below(mesh.vertex(f, 0));
+            const std::uint32_t b = sites.below(mesh.vertex(f, 1));
+            const std::uint32_t c = sites.below(mesh.vertex(f, 2));
             ranges[i] = {std::min({a, b, c}), std::max({a, b, c})};
         }
     });

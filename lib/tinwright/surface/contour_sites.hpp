@@ -26,15 +26,15 @@ struct ContourSite {
 class ContourSites {
   public:
     /// `levels`: ascending, distinct, fewer than 2^32 - 1; must outlive this. O(n log levels), parallel
-    /// inside the caller's task arena; 32 bytes a vertex.
+    /// inside the caller's task arena; 36 bytes a vertex.
     ContourSites(const Tin& tin, std::span<const double> levels);
     ContourSites(std::span<const Point3> vertices, std::span<const double> levels);
 
     [[nodiscard]] const ContourSite& operator[](VertexId v) const { return sites_[v.value]; }
     [[nodiscard]] std::span<const double> levels() const { return levels_; }
-    [[nodiscard]] bool is_above(VertexId v, std::uint32_t level) const {
-        return sites_[v.value].below > level;
-    }
+    /// `ContourSite::below`, apart: it is asked for more often than all the rest.
+    [[nodiscard]] std::uint32_t below(VertexId v) const { return below_[v.value]; }
+    [[nodiscard]] bool is_above(VertexId v, std::uint32_t level) const { return below_[v.value] > level; }
     [[nodiscard]] bool is_at(VertexId v, std::uint32_t level) const {
         return sites_[v.value].below == level && sites_[v.value].reached == level + 1;
     }
@@ -59,7 +59,7 @@ class ContourSites {
         const double t = share(a.z, b.z, c);
         const auto along = [t](double from, double to) {
             const double place = from + t * (to - from);
-            return from < to ? std::clamp(place, from, to) : std::clamp(place, to, from);
+            return std::min(std::max(place, std::min(from, to)), std::max(from, to));
         };
         return {along(a.x, b.x), along(a.y, b.y)};
     }
@@ -75,6 +75,7 @@ class ContourSites {
     void fill(const PointOf& point_of);
 
     LargeVector<ContourSite> sites_;
+    LargeVector<std::uint32_t> below_;
     std::span<const double> levels_;
 };
 
@@ -94,8 +95,11 @@ struct LevelLists {
     }
 };
 
-/// Item i has part in the levels `ranges[i]`. Throws UsageError for more entries than fit in memory
-/// sensibly. O(items + entries), parallel inside the caller's task arena.
+/// Throws UsageError for more crossings of faces and levels than memory holds sensibly.
+void require_few_crossings(std::size_t count);
+
+/// Item i has part in the levels `ranges[i]`. Throws as `require_few_crossings` does. O(items + entries),
+/// parallel inside the caller's task arena.
 LevelLists list_by_level(std::span<const LevelRange> ranges, std::size_t levels);
 
 /// The levels that cross each face; none for slots that are not terrain.
