@@ -70,7 +70,6 @@ struct Side {
     enum class Kind { Edge, Lower, Upper };
     Kind kind = Kind::Edge;
     HalfEdgeId h{};  ///< of an edge; else any of the face
-    friend bool operator==(const Side&, const Side&) = default;
 };
 
 /// Finds the polygons of one band after the other, on one thread.
