@@ -97,7 +97,7 @@ TEST_SUITE("io/write_contours") {
                 REQUIRE(line.getNumPoints() == static_cast<int>(expected.size()));
                 for (int i = 0; i < line.getNumPoints(); ++i) {
                     const Point2 p = expected[static_cast<std::size_t>(i)];
-                    if (format == "gml") {
+                    if (format == "gml" || format == "geojson") {
                         CHECK(std::abs(line.getX(i) - p.x) < 1e-8);
                         CHECK(std::abs(line.getY(i) - p.y) < 1e-7);
                     } else {
