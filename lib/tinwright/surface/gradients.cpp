@@ -109,9 +109,9 @@ bool is_in_turn(const TriangleMesh& mesh, HalfEdgeId start, HalfEdgeId wanted) {
 }  // namespace
 
 struct CornerGradients::State {
-    State(const Tin& of_tin, const SharpEdges& its_sharp, GradientMethod its_method)
+    State(const Tin& of_tin, SharpEdges its_sharp, GradientMethod its_method)
         : tin(of_tin),
-          sharp(its_sharp),
+          sharp(std::move(its_sharp)),
           method(its_method),
           steps_per_unit(of_tin.lattice.steps_per_unit()) {}
 

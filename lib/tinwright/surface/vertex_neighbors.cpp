@@ -215,7 +215,7 @@ bool NeighborSearch::are_octants_full(unsigned per_octant) const {
 
 bool NeighborSearch::insert_visited(VertexId vertex) {
     const std::size_t mask = visited_.size() - 1;
-    std::size_t place = (vertex.value * 0x9E3779B1U) & mask;
+    std::size_t place = (std::size_t{vertex.value} * 0x9E3779B1U) & mask;
     for (; visited_[place].epoch == epoch_; place = (place + 1) & mask) {
         if (visited_[place].vertex == vertex.value) {
             return false;
