@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace tinwright {
 
@@ -52,22 +53,47 @@ SplineStore::SplineStore(const SplineSources& sources, std::size_t limit)
 std::shared_ptr<const SplineBlock> SplineStore::block_of(VertexId v, SplineFitter& fitter) {
     const std::uint32_t number = v.value / SplineBlock::kBlock;
     Place& place = places_[number];
-    std::shared_ptr<const SplineBlock> block;
-    bool is_regretted = false;
-    {
-        const std::lock_guard lock(place.mutex);
-        place.used.store(fitted_.load(std::memory_order_relaxed), std::memory_order_relaxed);
-        if (place.block) {
-            return place.block;
-        }
-        const std::uint32_t first = number * SplineBlock::kBlock;
-        const auto last = static_cast<std::uint32_t>(
-            std::min<std::size_t>(first + std::size_t{SplineBlock::kBlock}, tin_.vertex_count()));
-        block = std::make_shared<const SplineBlock>(fitter, first, last);
-        place.block = block;
-        is_regretted = place.was_dropped;
-        fitted_.fetch_add(1, std::memory_order_relaxed);
+    std::unique_lock lock(place.mutex, std::try_to_lock);
+    if (!lock.owns_lock()) {
+        fit_beside(number, fitter);
+        lock.lock();
     }
+    place.used.store(fitted_.load(std::memory_order_relaxed), std::memory_order_relaxed);
+    if (place.block) {
+        return place.block;
+    }
+    return fit(number, fitter, std::move(lock));
+}
+
+/// Another thread is fitting a block that this one needs too. Instead of waiting it fits one that both will
+/// need soon: of those next to it on the curve the first that nobody has.
+void SplineStore::fit_beside(std::uint32_t number, SplineFitter& fitter) {
+    constexpr std::uint32_t kBeside = 16;
+    for (std::uint32_t step = 1; step < kBeside; ++step) {
+        const std::uint32_t other = number ^ step;
+        if (other < places_.size()) {
+            std::unique_lock lock(places_[other].mutex, std::try_to_lock);
+            if (lock.owns_lock() && !places_[other].block && !places_[other].was_dropped) {
+                places_[other].used.store(fitted_.load(std::memory_order_relaxed), std::memory_order_relaxed);
+                fit(other, fitter, std::move(lock));
+                return;
+            }
+        }
+    }
+}
+
+/// Fits a block whose place is locked.
+std::shared_ptr<const SplineBlock> SplineStore::fit(std::uint32_t number, SplineFitter& fitter,
+                                                    std::unique_lock<std::mutex> lock) {
+    Place& place = places_[number];
+    const std::uint32_t first = number * SplineBlock::kBlock;
+    const auto last = static_cast<std::uint32_t>(
+        std::min<std::size_t>(first + std::size_t{SplineBlock::kBlock}, tin_.vertex_count()));
+    auto block = std::make_shared<const SplineBlock>(fitter, first, last);
+    place.block = block;
+    const bool is_regretted = place.was_dropped;
+    lock.unlock();
+    fitted_.fetch_add(1, std::memory_order_relaxed);
     drop_oldest(number, is_regretted);
     return block;
 }

@@ -63,6 +63,9 @@ class SplineStore {
         std::atomic<std::uint64_t> used = 0;  // when: the number of blocks fitted by then
         bool was_dropped = false;
     };
+    void fit_beside(std::uint32_t number, SplineFitter& fitter);
+    std::shared_ptr<const SplineBlock> fit(std::uint32_t number, SplineFitter& fitter,
+                                           std::unique_lock<std::mutex> lock);
     void drop_oldest(std::uint32_t fitted, bool is_regretted);
 
     const Tin& tin_;
