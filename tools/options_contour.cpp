@@ -24,10 +24,9 @@ void ContourChoice::add_to(CLI::App& parser) {
     add_value(parser, "--interval", interval_text, "D", "levels B + k D, for every whole k");
     add_value(parser, "--base", base_text, "B", "of --interval (default 0)");
     add_value(parser, "--levels", levels_text, "V,V,...", "these levels (too)");
-    add_value(parser, "--index", index_text, "N", "mark every N-th line of --interval in the field is_index");
+    add_value(parser, "--index", index_text, "N", "mark every N-th line of --interval (is_index)");
     parser.add_flag("--polygons", is_bands, "the bands between levels, not lines");
-    add_value(parser, "--tolerance", tolerance_text, "DZ",
-              "of lines traced on a smooth surface (default D/20)");
+    add_value(parser, "--tolerance", tolerance_text, "DZ", "of traced lines, in elevation (default D/20)");
 }
 
 void ContourChoice::finish(bool is_linear) {
