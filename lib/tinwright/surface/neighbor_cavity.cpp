@@ -12,7 +12,6 @@ namespace {
 
 using internal::LocalKey;
 using steps::add;
-using steps::cross;
 using steps::dot;
 using steps::precise_cross;
 using steps::square;
@@ -80,8 +79,9 @@ NeighborCavity::NeighborCavity(const NeighborMesh& mesh, const QueryLattice& lat
 // Which edges the cavity goes on through is anyone's guess, so no branch depends on it: an edge is written
 // where the next edge to cross goes, and where the next rim edge goes, and one of the two stays.
 [[gnu::always_inline]] inline void NeighborCavity::look_at(const Side& side, Key2 at) {
-    const bool is_open = circles_.is_inside(face_of(tin_.mesh.twin(side.edge)), at) &
-                         static_cast<int>(!sharp_.is_sharp(side.edge));
+    const FaceId beyond = face_of(tin_.mesh.twin(side.edge));
+    __builtin_prefetch(&tin_.mesh.face(beyond));  // crossed soon, or never
+    const bool is_open = !sharp_.is_sharp(side.edge) && circles_.is_inside(beyond, at);
     crossed_[crossed_count_] = side;
     rim_[rim_count_] = side;
     crossed_count_ += is_open ? 1 : 0;

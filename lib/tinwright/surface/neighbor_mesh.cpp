@@ -179,11 +179,14 @@ std::optional<NeighborPlace> find_face(const NeighborMesh& mesh, FaceId start, K
     FaceId f = start;
     for (int steps = 0; steps < kWalkLimit; ++steps) {
         const std::array<int, 3> side = sides(tin, lattice, f, at);
-        const auto behind = std::find_if(side.begin(), side.end(), [](int s) { return s < 0; });
-        if (behind == side.end()) {
+        unsigned behind = 0;
+        while (behind < 3 && side[behind] >= 0) {
+            ++behind;
+        }
+        if (behind == 3) {
             return take(f, side);
         }
-        const HalfEdgeId way = half_edge(f, static_cast<unsigned>(behind - side.begin()));
+        const HalfEdgeId way = half_edge(f, behind);
         if (mesh.is_closed(way)) {
             break;
         }
