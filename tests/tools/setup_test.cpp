@@ -244,8 +244,7 @@ TEST_SUITE("tools/setup") {
         };
         CHECK(refusal({"--criterion", "normal-angle", "--scope", "max"}) ==
               "--scope does not apply to --criterion normal-angle, a sum over all edges; --delaunay-order "
-              "limits "
-              "its flips");
+              "limits its flips");
         for (const std::string criterion : {"slope", "delaunay"}) {
             CHECK(refusal({"--criterion", criterion, "--delaunay-order", "1"}) ==
                   "--delaunay-order is for flips: give --criterion normal-angle or normal-jump too");
