@@ -50,7 +50,7 @@ class SplineStore {
     SplineStore(const SplineSources& sources, std::size_t limit);
 
     /// The block of a vertex; `fitter` is the caller's own.
-    [[nodiscard]] std::shared_ptr<const SplineBlock> block_of(VertexId v, SplineFitter& fitter);
+    std::shared_ptr<const SplineBlock> block_of(VertexId v, SplineFitter& fitter);
     /// Of the splines held now; not while others read.
     [[nodiscard]] std::size_t bytes() const;
 
