@@ -11,6 +11,7 @@
 #include <tbb/parallel_for.h>
 
 #include "tinwright/geometry/large_vector.hpp"
+#include "tinwright/mesh/mesh_walk.hpp"
 #include "tinwright/surface/linear.hpp"
 #include "tinwright/surface/sample_tree.hpp"
 #include "tinwright/surface/scan_conversion.hpp"
@@ -24,17 +25,6 @@ constexpr std::int64_t kCellsOfTask = 4096;
 bool is_from_gradient(Product product) {
     return product != Product::Elevation && product != Product::NearestDistance &&
            product != Product::FaceNumber;
-}
-
-/// Numbers of the terrain faces as TIN files have them: in the order of slots.
-std::vector<std::uint32_t> number_faces(const TriangleMesh& mesh) {
-    std::vector<std::uint32_t> numbers(mesh.slot_count());
-    std::uint32_t number = 0;
-    for (std::uint32_t f = 0; f < mesh.slot_count(); ++f) {
-        numbers[f] = number;
-        number += mesh.is_terrain({f}) ? 1 : 0;
-    }
-    return numbers;
 }
 
 /// What one thread keeps from cell to cell.
@@ -106,7 +96,7 @@ SurfaceGridder::State::State(const Tin& of, const Interpolator* read_by, const G
         samples.emplace(tin);
     }
     if (asks_for(Product::FaceNumber)) {
-        face_numbers = number_faces(tin.mesh);
+        face_numbers = number_terrain(tin.mesh);
     }
 }
 

@@ -1,6 +1,7 @@
 #include "tinwright/surface/vertex_neighbors.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <optional>
 #include <utility>
@@ -16,15 +17,18 @@ bool is_nearer(const VertexNeighbor& a, const VertexNeighbor& b) {
     return a.distance2 < b.distance2 || (a.distance2 == b.distance2 && a.vertex < b.vertex);
 }
 
-/// 0 to 7 counter-clockwise from the positive x axis; each has its clockwise border. Exact.
+/// 0 to 7 counter-clockwise from the positive x axis; each has its clockwise border. Exact. Without branches:
+/// no processor can foretell where the next vertex is.
 unsigned octant_of(Key2 offset) {
-    unsigned quadrant = 0;
-    Key2 turned = offset;
-    while (turned.x <= 0 || turned.y < 0) {
-        turned = {turned.y, -turned.x};  // a quarter turn clockwise
-        ++quadrant;
-    }
-    return 2 * quadrant + (turned.y >= turned.x ? 1U : 0U);
+    constexpr std::array<double, 2> kTurned{1, -1};
+    const bool is_up = (offset.y > 0) | ((offset.y == 0) & (offset.x > 0));
+    const unsigned half = is_up ? 0 : 1;
+    const double x = kTurned[half] * offset.x;
+    const double y = kTurned[half] * offset.y;
+    // From here on in the half-plane above the x axis, its right end included.
+    const unsigned quarter = x > 0 ? 0 : 1;
+    const bool is_second = quarter == 0 ? y >= x : -x >= y;
+    return 4 * half + 2 * quarter + (is_second ? 1U : 0U);
 }
 
 /// Follows the straight line from one vertex to another through the faces between them.
