@@ -10,23 +10,23 @@ namespace {
 // The usual exponents need square roots only, two or four of which a processor takes at a time.
 
 struct Power1 {
-    [[nodiscard]] double value(double squared) const { return std::sqrt(squared); }
-    [[nodiscard]] double slope(double squared) const { return 1 / std::sqrt(squared); }
+    static double value(double squared) { return std::sqrt(squared); }
+    static double slope(double squared) { return 1 / std::sqrt(squared); }
 };
 struct Power3Halves {
-    [[nodiscard]] double value(double squared) const {
+    static double value(double squared) {
         const double distance = std::sqrt(squared);
         return distance * std::sqrt(distance);
     }
-    [[nodiscard]] double slope(double squared) const { return 1.5 / std::sqrt(std::sqrt(squared)); }
+    static double slope(double squared) { return 1.5 / std::sqrt(std::sqrt(squared)); }
 };
 struct Power5Halves {
-    [[nodiscard]] double value(double squared) const { return squared * std::sqrt(std::sqrt(squared)); }
-    [[nodiscard]] double slope(double squared) const { return 2.5 * std::sqrt(std::sqrt(squared)); }
+    static double value(double squared) { return squared * std::sqrt(std::sqrt(squared)); }
+    static double slope(double squared) { return 2.5 * std::sqrt(std::sqrt(squared)); }
 };
 struct Power3 {
-    [[nodiscard]] double value(double squared) const { return squared * std::sqrt(squared); }
-    [[nodiscard]] double slope(double squared) const { return 3 * std::sqrt(squared); }
+    static double value(double squared) { return squared * std::sqrt(squared); }
+    static double slope(double squared) { return 3 * std::sqrt(squared); }
 };
 struct AnyPower {
     double exponent;

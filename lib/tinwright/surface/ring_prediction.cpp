@@ -46,7 +46,7 @@ std::optional<double> ring_prediction_error(const Tin& tin, const VertexFan& fan
     if (!fan.is_closed) {
         return std::nullopt;
     }
-    std::array<Spoke, kMostSpokes> spokes;
+    std::array<Spoke, kMostSpokes> spokes{};
     std::size_t count = 0;
     bool is_hub = false;
     const VertexId center = tin.mesh.origin(fan.first);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstddef>
 #include <string>
+#include <utility>
 
 #include "tinwright/geometry/decimal.hpp"
 #include "tinwright/geometry/error.hpp"
@@ -22,9 +23,9 @@ constexpr double kLeastSmoothExponent = 1.5;
 
 class SmoothInterpolator final : public Interpolator {
   public:
-    SmoothInterpolator(const Tin& tin, const SharpEdges& sharp, const SmoothOptions& options)
-        : sharp_(sharp),
-          options_(options),
+    SmoothInterpolator(const Tin& tin, SharpEdges sharp, SmoothOptions options)
+        : sharp_(std::move(sharp)),
+          options_(std::move(options)),
           starts_(find_starts(tin.mesh)),
           lattice_(tin),
           sources_{tin, sharp_, starts_, options_},
