@@ -15,7 +15,6 @@ inline Point2 vector_between(const internal::LocalKey& a, const internal::LocalK
     return {b.x - a.x, b.y - a.y};
 }
 inline double dot(Point2 a, Point2 b) { return a.x * b.x + a.y * b.y; }
-inline double cross(Point2 a, Point2 b) { return a.x * b.y - a.y * b.x; }
 inline double square(Point2 a) { return dot(a, a); }
 /// A quarter turn clockwise.
 inline Point2 turned(Point2 a) { return {a.y, -a.x}; }
