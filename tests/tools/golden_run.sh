@@ -12,6 +12,7 @@
 # Everything else is a comment. Expected lines were recorded from a run and then read against the manual and
 # the rules for messages; values of surfaces follow from the data, as the comments in the files say.
 set -u
+[ $# = 4 ] || { echo "golden_run.sh takes four arguments, not $#"; exit 2; } # the last one is emptied
 file=$1 name=$2 tools=$3 scratch=$4
 SAMPLES=$(cd "$(dirname "$file")/../../samples/data" && pwd) || exit 2
 export PATH="$tools:$PATH" LC_ALL=C SAMPLES
