@@ -1,5 +1,6 @@
 #include "tinwright/surface/stretch_direction.hpp"
 
+#include <array>
 #include <cmath>
 
 namespace tinwright {
@@ -9,8 +10,10 @@ namespace {
 /// Sums over faces of weights times moments of gradients.
 class GradientSpread {
   public:
-    void add(const Tin& tin, FaceId f) {
-        const auto& v = tin.mesh.face(f).vertex;
+    /// The face of a half-edge, which its corners are counted from: the same bits wherever the face starts.
+    void add(const Tin& tin, HalfEdgeId h) {
+        const std::array<VertexId, 3> v{tin.mesh.origin(h), tin.mesh.destination(h),
+                                        tin.mesh.origin(previous(h))};
         const Key2 a = tin.key(v[0]);
         const Key2 b = tin.key(v[1]);
         const Key2 c = tin.key(v[2]);
@@ -60,7 +63,7 @@ Point2 find_direction_of_change(const Tin& tin, const SharpEdges& sharp, const V
     const TriangleMesh& mesh = tin.mesh;
     GradientSpread spread;
     visit_fan(mesh, fan, [&](HalfEdgeId spoke) {
-        spread.add(tin, face_of(spoke));
+        spread.add(tin, spoke);
         // Clockwise around the spoke's other end from the one of its faces to the other, which are this
         // fan's.
         constexpr int kMostFaces = 32;  // of a hub
@@ -70,7 +73,7 @@ Point2 find_direction_of_change(const Tin& tin, const SharpEdges& sharp, const V
             if (mesh.destination(h) == mesh.origin(spoke)) {
                 break;
             }
-            spread.add(tin, face_of(h));  // faces at the fan's rim are two fans' and count twice
+            spread.add(tin, h);  // faces at the fan's rim are two fans' and count twice
         }
     });
     return spread.direction();

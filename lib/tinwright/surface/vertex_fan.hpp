@@ -1,8 +1,6 @@
 #ifndef TINWRIGHT_SURFACE_VERTEX_FAN_HPP
 #define TINWRIGHT_SURFACE_VERTEX_FAN_HPP
 
-#include <algorithm>
-
 #include "tinwright/mesh/mesh_walk.hpp"
 #include "tinwright/surface/sharp_edges.hpp"
 
@@ -19,7 +17,7 @@ inline HalfEdgeId next_clockwise(const TriangleMesh& mesh, HalfEdgeId h) { retur
 /// The terrain faces around a vertex between one wall and the next, counter-clockwise, each by its half-edge
 /// from the vertex; all faces around the vertex where it has no wall.
 struct VertexFan {
-    HalfEdgeId first{};  ///< of a closed fan the half-edge of smallest id
+    HalfEdgeId first{};  ///< of a closed fan the one to the vertex of smallest id
     HalfEdgeId last{};
     bool is_closed = false;
 };
@@ -30,7 +28,7 @@ inline VertexFan find_fan(const TriangleMesh& mesh, const SharpEdges& sharp, Hal
     HalfEdgeId least = corner;
     while (!is_wall(mesh, sharp, first)) {
         first = next_clockwise(mesh, first);
-        least = std::min(least, first);
+        least = mesh.destination(first) < mesh.destination(least) ? first : least;
         if (first == corner) {
             return {least, next_clockwise(mesh, least), true};
         }
