@@ -87,7 +87,7 @@ Work preparing(const Points& points, int side, int threads) {
             threads == 1 ? places_of(tin, side) : std::vector<tinwright::SurfacePlace>{};
         tbb::task_arena arena(threads);
         meter.start();
-        const std::vector<tinwright::HalfEdgeId> starts = tinwright::find_starts(tin.mesh);
+        const std::vector<tinwright::HalfEdgeId> starts = tinwright::find_spline_starts(tin.mesh);
         const tinwright::SplineSources sources{tin, sharp, starts, options};
         SplineStore store(sources, std::numeric_limits<std::size_t>::max());
         arena.execute([&] { prepare_all(sources, store); });

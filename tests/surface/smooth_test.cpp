@@ -282,7 +282,7 @@ TEST_SUITE("surface/smooth") {
         Random random(6);
         const Tin tin = tin_with(samples_of(random, hill, 1500), {});
         const SharpEdges sharp;
-        const std::vector<HalfEdgeId> starts = find_starts(tin.mesh);
+        const std::vector<HalfEdgeId> starts = find_spline_starts(tin.mesh);
         const SmoothOptions options;
         const SplineSources sources{tin, sharp, starts, options};
         const QueryLattice lattice(tin);
@@ -318,6 +318,76 @@ TEST_SUITE("surface/smooth") {
         halves[0].insert(halves[0].end(), halves[1].begin(), halves[1].end());
         CHECK(halves[0] == expected);
         CHECK(roomy.bytes() < 500 * tin.vertex_count());
+    }
+
+    TEST_CASE("the surface does not depend on the order of faces, hubs included") {
+        Random random(7);
+        std::vector<Point3> samples = samples_of(random, hill, 200);
+        for (int i = 0; i < 400; ++i) {  // around a vertex in the middle
+            const double angle = i * std::acos(-1.0) / 200;
+            const double radius = 500 + 20 * random.real();
+            samples.push_back({std::round(100 + radius * std::cos(angle)),
+                               std::round(100 + radius * std::sin(angle)), radius});
+        }
+        std::erase_if(samples, [](const Point3& p) { return std::hypot(p.x - 100, p.y - 100) < 300; });
+        samples.push_back({100, 100, 50});
+        const Tin tin = tin_with(samples, {});
+        std::vector<std::uint32_t> corners;
+        for (const auto& face : terrain_of(tin.mesh)) {
+            corners.insert(corners.end(), face.begin(), face.end());
+        }
+        Tin other = tin;
+        other.mesh = mesh_of(tin.vertex_count(), shuffled_faces(random, corners));
+        const Surface surface(tin);
+        const Surface of_other(other);
+        for (int i = 0; i < 500; ++i) {
+            const double x = 300 * random.real();
+            const double y = 300 * random.real();
+            REQUIRE(std::bit_cast<std::uint64_t>(surface.z(x, y)) ==
+                    std::bit_cast<std::uint64_t>(of_other.z(x, y)));
+        }
+    }
+
+    TEST_CASE("parts that touch in a point only know nothing of each other") {
+        Random random(8);
+        std::vector<Point3> samples{{200, 200, 0}};
+        for (int i = 0; i < 80; ++i) {
+            samples.push_back({std::round(200 * random.real()), std::round(200 * random.real()), 1});
+        }
+        for (int i = 0; i < 80; ++i) {
+            const double x = 200 + std::round(200 * random.real());
+            samples.push_back({x, 200 + std::round(200 * random.real()), x - 200});
+        }
+        Tin tin = tin_with(samples, {});
+        std::vector<std::uint32_t> corners;
+        for (const auto& face : terrain_of(tin.mesh)) {
+            const auto in_part = [&](double sign) {
+                return std::all_of(face.begin(), face.end(), [&](std::uint32_t v) {
+                    const Point3 p = tin.position({v});
+                    return sign * p.x >= sign * 200 && sign * p.y >= sign * 200;
+                });
+            };
+            if (in_part(1) || in_part(-1)) {
+                corners.insert(corners.end(), face.begin(), face.end());
+            }
+        }
+        tin.mesh = mesh_of(tin.vertex_count(), corners);
+        // The lower part is level, the upper one a plane: each as its own faces have it.
+        for (std::uint32_t v = 0; v < tin.vertex_count(); ++v) {
+            const Point3 p = tin.position({v});
+            tin.z[v] = p.x < 200 || p.y < 200 ? 0 : p.x - 200;
+        }
+        const Surface surface(tin);
+        int read = 0;
+        for (int i = 0; i < 2000; ++i) {
+            const double x = 400 * random.real();
+            const double y = 400 * random.real();
+            if (surface.locator.find(Point2{x, y})) {
+                ++read;
+                REQUIRE(std::abs(surface.z(x, y) - (x < 200 ? 0 : x - 200)) < 1e-9);
+            }
+        }
+        CHECK(read > 500);
     }
 
     TEST_CASE("options out of range are refused in words") {

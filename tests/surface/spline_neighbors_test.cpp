@@ -50,7 +50,7 @@ TEST_SUITE("surface/spline_neighbors") {
             const Tin tin = uniform_tin(random, 300);
             const std::vector<HalfEdgeId> starts = find_starts(tin.mesh);
             const SharpEdges sharp;
-            SplineNeighbors neighbors(tin, sharp, starts, 24);
+            SplineNeighbors neighbors(tin, sharp, 24);
             for (std::uint32_t v = 0; v < tin.vertex_count(); ++v) {
                 const auto found = neighbors.find(fan_of(tin, starts, {v}));
                 const std::set<VertexId> set(found.begin(), found.end());
@@ -100,11 +100,19 @@ TEST_SUITE("surface/spline_neighbors") {
         const Tin tin = delaunay_tin(keys);
         const std::vector<HalfEdgeId> starts = find_starts(tin.mesh);
         const SharpEdges sharp;
-        SplineNeighbors neighbors(tin, sharp, starts, 24);
+        SplineNeighbors neighbors(tin, sharp, 24);
         for (std::uint32_t v = 0; v < tin.vertex_count(); ++v) {
-            const std::size_t count = neighbors.find(fan_of(tin, starts, {v})).size();
-            REQUIRE(count >= 8);
-            REQUIRE(count <= 24 + 40);
+            const auto found = neighbors.find(fan_of(tin, starts, {v}));
+            REQUIRE(found.size() >= 8);
+            REQUIRE(found.size() <= 24 + 40);
+            if (tin.keys[v] == keys[0]) {
+                std::set<int> octants;
+                for (const VertexId u : found) {
+                    const double turn = std::atan2(tin.key(u).y - keys[0].y, tin.key(u).x - keys[0].x);
+                    octants.insert(static_cast<int>(std::floor(turn * 4 / std::acos(-1.0) + 8)) % 8);
+                }
+                REQUIRE(octants.size() == 8);
+            }
         }
     }
 }

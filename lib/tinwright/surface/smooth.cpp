@@ -26,7 +26,7 @@ class SmoothInterpolator final : public Interpolator {
     SmoothInterpolator(const Tin& tin, SharpEdges sharp, SmoothOptions options)
         : sharp_(std::move(sharp)),
           options_(std::move(options)),
-          starts_(find_starts(tin.mesh)),
+          starts_(find_spline_starts(tin.mesh)),
           lattice_(tin),
           sources_{tin, sharp_, starts_, options_},
           store_(sources_) {}

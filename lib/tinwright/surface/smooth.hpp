@@ -31,8 +31,9 @@ void check_smooth(const SmoothOptions& options);
 /// which it passes through, with the kernel that foretells them best when each is left out in turn
 /// [rippa1999]. On a face the splines of its corners are blended by barycentric shares, or where `is_c1` by
 /// Clough and Tocher's functions. Sharp edges and the border are never looked across; a vertex on a sharp
-/// edge has no spline but the plane of each face, so that sharp edges stay straight. With `is_c1` the
-/// gradient is continuous but at the edges that touch such vertices, or of quadrilaterals far from convex.
+/// edge has no spline but the plane of each face, so that sharp edges stay straight, and neither has one
+/// where parts of the terrain touch in a point only. With `is_c1` the gradient is continuous but at the edges
+/// that touch such vertices, or of quadrilaterals far from convex.
 ///
 /// Splines are fitted when first asked for, by the thread that asks: some 60 microseconds and 400 bytes a
 /// vertex with the defaults. What is held is limited, so a raster read row by row takes a part of that

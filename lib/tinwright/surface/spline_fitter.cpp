@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "tinwright/geometry/constructions.hpp"
+#include "tinwright/mesh/border.hpp"
 #include "tinwright/mesh/mesh_walk.hpp"
 #include "tinwright/surface/ring_prediction.hpp"
 #include "tinwright/surface/stretch_direction.hpp"
@@ -20,25 +22,27 @@ constexpr double kNearness = 0.3;
 
 }  // namespace
 
-SplineFitter::SplineFitter(const SplineSources& sources)
-    : sources_(sources), neighbors_(sources.tin, sources.sharp, sources.starts, sources.options.neighbors) {}
-
-/// A half-edge from the vertex, of a terrain face.
-std::optional<HalfEdgeId> SplineFitter::find_corner(VertexId v) const {
-    const TriangleMesh& mesh = sources_.tin.mesh;
-    const HalfEdgeId start = sources_.starts[v.value];
-    if (start == kNoHalfEdge) {
-        return std::nullopt;
-    }
-    HalfEdgeId corner = start;
-    while (!mesh.is_terrain(face_of(corner))) {
-        corner = next_around(mesh, corner);
-        if (corner == start) {
-            return std::nullopt;
+std::vector<HalfEdgeId> find_spline_starts(const TriangleMesh& mesh) {
+    std::vector<HalfEdgeId> starts(mesh.vertex_count(), kNoHalfEdge);
+    for (std::uint32_t f = 0; f < mesh.slot_count(); ++f) {
+        for (unsigned corner = 0; corner < 3 && mesh.is_terrain({f}); ++corner) {
+            starts[mesh.vertex({f}, corner).value] = half_edge({f}, corner);
         }
     }
-    return corner;
+    // Each part of the terrain at a vertex, if not all around it, has one border half-edge from there.
+    std::vector<bool> has_part(mesh.vertex_count());
+    for (const HalfEdgeId h : find_border(mesh)) {
+        const std::uint32_t v = mesh.origin(h).value;
+        if (has_part[v]) {
+            starts[v] = kNoHalfEdge;
+        }
+        has_part[v] = true;
+    }
+    return starts;
 }
+
+SplineFitter::SplineFitter(const SplineSources& sources)
+    : sources_(sources), neighbors_(sources.tin, sources.sharp, sources.options.neighbors) {}
 
 /// Nodes, the vertex first, and what is known of the spline before any kernel.
 VertexSpline SplineFitter::place_nodes(std::span<const VertexId> ids) {
@@ -88,10 +92,11 @@ bool SplineFitter::is_plane_better(double handicap) const {
     for (std::size_t i = 0; i < ids_.size(); ++i) {
         const bool is_central =
             i == 0 || find_half_edge(mesh, sources_.starts[ids_.front().value], ids_[i]).has_value();
-        const std::optional<HalfEdgeId> corner = is_central ? find_corner(ids_[i]) : std::nullopt;
+        const HalfEdgeId corner = sources_.starts[ids_[i].value];
         const std::optional<double> error =
-            corner ? ring_prediction_error(sources_.tin, find_fan(mesh, sources_.sharp, *corner))
-                   : std::nullopt;
+            is_central && corner != kNoHalfEdge
+                ? ring_prediction_error(sources_.tin, find_fan(mesh, sources_.sharp, corner))
+                : std::nullopt;
         if (error) {
             of_planes += std::abs(*error);
             of_spline += std::abs(best_errors_[i]);
@@ -101,12 +106,12 @@ bool SplineFitter::is_plane_better(double handicap) const {
 }
 
 VertexSpline SplineFitter::fit(VertexId v, std::vector<VertexId>& nodes, std::vector<double>& coefficients) {
-    const std::optional<HalfEdgeId> corner = find_corner(v);
-    if (!corner || sources_.sharp.is_sharp(v)) {
+    const HalfEdgeId corner = sources_.starts[v.value];
+    if (corner == kNoHalfEdge || sources_.sharp.is_sharp(v)) {
         return {};
     }
     const Tin& tin = sources_.tin;
-    const VertexFan fan = find_fan(tin.mesh, sources_.sharp, *corner);
+    const VertexFan fan = find_fan(tin.mesh, sources_.sharp, corner);
     const std::span<const VertexId> found = neighbors_.find(fan);
     ids_.assign(1, v);
     ids_.insert(ids_.end(), found.begin(), found.end());

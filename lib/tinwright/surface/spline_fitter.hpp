@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -29,11 +28,16 @@ struct VertexSpline {
     std::uint8_t kernel = kPlane;  ///< of the options; kPlane: on each face the plane through its corners
 };
 
+/// For each vertex that may have a spline a half-edge that starts there, of a terrain face, and kNoHalfEdge
+/// for the others: those without terrain faces, and those where parts of the terrain touch in a point only,
+/// on different sides of the border. O(slots).
+std::vector<HalfEdgeId> find_spline_starts(const TriangleMesh& mesh);
+
 /// What all splines of a surface are fitted from; what it refers to must outlive it.
 struct SplineSources {
     const Tin& tin;
     const SharpEdges& sharp;
-    const std::vector<HalfEdgeId>& starts;  ///< of `find_starts`
+    const std::vector<HalfEdgeId>& starts;  ///< of `find_spline_starts`
     const SmoothOptions& options;
 };
 
@@ -42,7 +46,7 @@ class SplineFitter {
   public:
     explicit SplineFitter(const SplineSources& sources);
 
-    /// Appends the nodes of a vertex' spline and their coefficients. Vertices without terrain faces, on sharp
+    /// Appends the nodes of a vertex' spline and their coefficients. Vertices without a start, on sharp
     /// edges, or whose neighbours are too few or in a row have none: planes. O(k n^3) for k kernels, n nodes.
     VertexSpline fit(VertexId v, std::vector<VertexId>& nodes, std::vector<double>& coefficients);
 
@@ -51,7 +55,6 @@ class SplineFitter {
     LocalSpline* fit_again(const VertexSpline& spline, std::span<const VertexId> nodes);
 
   private:
-    [[nodiscard]] std::optional<HalfEdgeId> find_corner(VertexId v) const;
     VertexSpline place_nodes(std::span<const VertexId> ids);
     [[nodiscard]] double expected_error() const;
     [[nodiscard]] bool is_usable(const SmoothOptions::Kernel& kernel) const;

@@ -36,15 +36,23 @@ std::uint8_t octant_of(double dx, double dy) {
 
 }  // namespace
 
+std::uint8_t SplineNeighbors::octant_to(VertexId v) const {
+    const Key2 from = tin_.key(center_);
+    const Key2 to = tin_.key(v);
+    return octant_of(to.x - from.x, to.y - from.y);
+}
+
+bool SplineNeighbors::is_of_terrain(HalfEdgeId h) const {
+    return tin_.mesh.is_terrain(face_of(h)) || tin_.mesh.is_terrain(face_of(tin_.mesh.twin(h)));
+}
+
 bool SplineNeighbors::is_later(const Candidate& a, const Candidate& b) {
     return a.distance != b.distance ? a.distance > b.distance : b.vertex < a.vertex;
 }
 
-SplineNeighbors::SplineNeighbors(const Tin& tin, const SharpEdges& sharp, std::span<const HalfEdgeId> starts,
-                                 int count)
+SplineNeighbors::SplineNeighbors(const Tin& tin, const SharpEdges& sharp, int count)
     : tin_(tin),
       sight_(tin, sharp),
-      starts_(starts),
       count_(static_cast<std::size_t>(count)),
       quota_((count_ + 7) / 8),
       most_(kLooks * count_) {
@@ -69,22 +77,53 @@ bool SplineNeighbors::is_new(VertexId v) {
     return true;
 }
 
-/// Adds the vertices that a vertex is joined to by edges of the terrain.
-void SplineNeighbors::visit(VertexId v, bool is_joined) {
-    const TriangleMesh& mesh = tin_.mesh;
-    const HalfEdgeId start = starts_[v.value];
-    std::size_t added = 0;
+void SplineNeighbors::add(HalfEdgeId h, bool is_joined) {
+    const VertexId to = tin_.mesh.destination(h);
+    heap_.push_back({squared_distance(tin_.key(center_), tin_.key(to)), to, h, is_joined});
+}
+
+/// Adds the vertices that the center is joined to; of a hub so many of the nearest in each octant as are
+/// wanted in all.
+void SplineNeighbors::visit_center(HalfEdgeId start) {
     HalfEdgeId h = start;
     do {
-        const VertexId to = mesh.destination(h);
-        if ((mesh.is_terrain(face_of(h)) || mesh.is_terrain(face_of(mesh.twin(h)))) && added < 8 * count_ &&
-            is_new(to)) {
-            heap_.push_back({squared_distance(tin_.key(center_), tin_.key(to)), to, is_joined});
-            std::push_heap(heap_.begin(), heap_.end(), is_later);
-            ++added;
+        if (is_of_terrain(h)) {
+            add(h, true);
         }
-        h = next_around(mesh, h);
+        h = next_around(tin_.mesh, h);
     } while (h != start);
+    if (heap_.size() > 8 * count_) {
+        std::sort(heap_.begin(), heap_.end(), [](const auto& a, const auto& b) { return is_later(b, a); });
+        std::array<std::size_t, 8> kept{};
+        std::size_t total = 0;
+        for (const Candidate& each : heap_) {
+            if (kept[octant_to(each.vertex)]++ < count_) {
+                heap_[total++] = each;
+            }
+        }
+        heap_.resize(total);
+    }
+    for (const Candidate& each : heap_) {
+        is_new(each.vertex);
+    }
+    std::make_heap(heap_.begin(), heap_.end(), is_later);
+}
+
+/// Adds the vertices that a neighbour is joined to, alternately to the left and to the right of the way that
+/// it was come by; of a hub those that are beside the way.
+void SplineNeighbors::visit(const Candidate& from) {
+    const TriangleMesh& mesh = tin_.mesh;
+    HalfEdgeId left = mesh.twin(from.way);
+    HalfEdgeId right = left;
+    for (std::size_t steps = 0; steps < 8 * count_ && next_around(mesh, left) != right; ++steps) {
+        const bool is_left = steps % 2 == 0;
+        const HalfEdgeId h = is_left ? next_around(mesh, left) : next_clockwise(mesh, right);
+        (is_left ? left : right) = h;
+        if (is_of_terrain(h) && is_new(mesh.destination(h))) {
+            add(h, false);
+            std::push_heap(heap_.begin(), heap_.end(), is_later);
+        }
+    }
 }
 
 /// Notes a vertex that is in sight. Whether it is.
@@ -92,9 +131,7 @@ bool SplineNeighbors::accept(const Candidate& candidate) {
     if (!candidate.is_joined && !sight_.sees(fan_, candidate.vertex)) {
         return false;
     }
-    const Key2 from = tin_.key(center_);
-    const Key2 to = tin_.key(candidate.vertex);
-    octant_.push_back(octant_of(to.x - from.x, to.y - from.y));
+    octant_.push_back(octant_to(candidate.vertex));
     ++in_octant_[octant_.back()];
     accepted_.push_back(candidate);
     return true;
@@ -110,7 +147,7 @@ std::span<const VertexId> SplineNeighbors::find(const VertexFan& fan) {
     std::fill(seen_.begin(), seen_.end(), 0U);
     seen_count_ = 0;
     is_new(center_);
-    visit(center_, true);
+    visit_center(fan.first);
     // On a Delaunay TIN every vertex has a neighbour nearer to the center, so they come by distance.
     for (std::size_t looked = 0; !heap_.empty() && looked < most_; ++looked) {
         if (accepted_.size() >= count_ &&
@@ -121,7 +158,7 @@ std::span<const VertexId> SplineNeighbors::find(const VertexFan& fan) {
         const Candidate candidate = heap_.back();
         heap_.pop_back();
         if (accept(candidate)) {
-            visit(candidate.vertex, false);
+            visit(candidate);
         }
     }
     while (!heap_.empty()) {  // what the TIN joins, however far

@@ -22,28 +22,32 @@ namespace tinwright {
 /// would otherwise know their own line only.
 class SplineNeighbors {
   public:
-    /// `count`: of neighbours, 8 or more make octants. `starts`: of `find_starts`. All must outlive it.
-    SplineNeighbors(const Tin& tin, const SharpEdges& sharp, std::span<const HalfEdgeId> starts, int count);
+    /// `count`: of neighbours, 8 or more make octants. Both must outlive it.
+    SplineNeighbors(const Tin& tin, const SharpEdges& sharp, int count);
 
     /// The neighbours, nearest first, of a fan's vertex; valid until the next call. Independent of earlier
-    /// calls. O(c log c) for c neighbours.
+    /// calls and of the order of faces. O(d log d + c log c) for d edges at the vertex, c neighbours.
     std::span<const VertexId> find(const VertexFan& fan);
 
   private:
     struct Candidate {
         double distance;  // squared
         VertexId vertex;
+        HalfEdgeId way;  // to it, from the vertex that it was found from
         bool is_joined;
     };
     static bool is_later(const Candidate& a, const Candidate& b);
-    void visit(VertexId v, bool is_joined);
+    [[nodiscard]] std::uint8_t octant_to(VertexId v) const;
+    [[nodiscard]] bool is_of_terrain(HalfEdgeId h) const;
+    void add(HalfEdgeId h, bool is_joined);
+    void visit_center(HalfEdgeId start);
+    void visit(const Candidate& from);
     bool is_new(VertexId v);
     bool accept(const Candidate& candidate);
     void select();
 
     const Tin& tin_;
     NeighborSearch sight_;
-    std::span<const HalfEdgeId> starts_;
     std::size_t count_;
     std::size_t quota_;  // of an octant
     std::size_t most_;   // vertices to look at
