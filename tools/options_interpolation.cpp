@@ -1,5 +1,6 @@
 #include "options_interpolation.hpp"
 
+#include <cmath>
 #include <limits>
 #include <string_view>
 
@@ -52,6 +53,17 @@ std::vector<SmoothOptions::Kernel> parse_kernels(const std::string& text) {
         start = end + 1;
     }
     return kernels;
+}
+
+std::string kernels_name(const std::vector<SmoothOptions::Kernel>& kernels) {
+    std::string text;
+    for (const SmoothOptions::Kernel& kernel : kernels) {
+        text += (text.empty() ? "" : ",") + decimal_text(kernel.exponent);
+        // A handicap follows a stretch, were it one.
+        text += kernel.stretch != 1 || kernel.handicap != 1 ? "x" + decimal_text(kernel.stretch) : "";
+        text += kernel.handicap != 1 ? "*" + decimal_text(kernel.handicap) : "";
+    }
+    return text;
 }
 
 bool has_gradients(InterpolationMethod method) {
@@ -108,10 +120,19 @@ void InterpolationChoice::finish() {
 
 std::string InterpolationChoice::canonical() const {
     std::string text = "--method " + method_text;
-    for (const auto& [name, value] :
-         {std::pair{" --gradients ", &gradients_text}, std::pair{" --smooth-kernels ", &kernels_text},
-          std::pair{" --smooth-neighbors ", &neighbors_text}, std::pair{" --smooth-guard ", &guard_text}}) {
-        text += value->empty() ? "" : name + *value;
+    const InterpolationOptions usual;
+    if (options.gradients != usual.gradients) {
+        text += " --gradients " + choice_name(options.gradients, kGradientMethods);
+    }
+    if (options.smooth.kernels != usual.smooth.kernels) {
+        text += " --smooth-kernels " + kernels_name(options.smooth.kernels);
+    }
+    if (options.smooth.neighbors != usual.smooth.neighbors) {
+        text += " --smooth-neighbors " + std::to_string(options.smooth.neighbors);
+    }
+    if (options.smooth.guard != usual.smooth.guard) {
+        text += " --smooth-guard " +
+                (std::isinf(options.smooth.guard) ? "none" : decimal_text(options.smooth.guard));
     }
     return text;
 }

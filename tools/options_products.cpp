@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string_view>
 
+#include "tinwright/geometry/decimal.hpp"
 #include "tinwright/geometry/error.hpp"
 
 #include "option_values.hpp"
@@ -113,11 +114,16 @@ std::string ProductOptions::canonical() const {
                     (product == Product::GradientX ? "gradient" : choice_name(product, kProducts));
         }
     }
-    for (const auto& [name, value] :
-         {std::pair{" --slope-unit ", &slope_unit_text}, std::pair{" --z-factor ", &z_factor_text},
-          std::pair{" --azimuth ", &azimuth_text}, std::pair{" --altitude ", &altitude_text}}) {
-        text += value->empty() ? "" : name + *value;
+    const GriddingOptions usual;
+    if (options.slope_unit != usual.slope_unit) {
+        text += " --slope-unit " + choice_name(options.slope_unit, kSlopeUnits);
     }
+    const auto add = [&](const std::string& name, double value, double usual_value) {
+        text += value == usual_value ? "" : " --" + name + " " + decimal_text(value);
+    };
+    add("z-factor", options.z_factor, usual.z_factor);
+    add("azimuth", options.light.azimuth, usual.light.azimuth);
+    add("altitude", options.light.altitude, usual.light.altitude);
     return text;
 }
 

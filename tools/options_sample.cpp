@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "tinwright/geometry/decimal.hpp"
 #include "tinwright/geometry/error.hpp"
 #include "tinwright/io/gdal_session.hpp"
 
@@ -96,7 +97,7 @@ std::vector<io::Source> SampleOptions::sources() const {
 std::string SampleOptions::canonical() const {
     std::string text = slope_unit == SlopeUnit::Degree ? "" : "--slope-unit " + slope_unit_text;
     if (step > 0) {
-        text += (text.empty() ? "--step " : " --step ") + step_text;
+        text += (text.empty() ? "--step " : " --step ") + decimal_text(step);
     }
     return text;
 }

@@ -356,6 +356,28 @@ TEST_SUITE("tools/setup") {
               "--preview shades elevations: let --product begin with elevation");
     }
 
+    TEST_CASE("how a surface is read is written back canonically: what is usual goes without saying") {
+        const auto canonical = [](std::vector<std::string> more) {
+            more.insert(more.begin(), {"a.csv", "-o", "b.tif"});
+            CommandGrid grid;
+            grid.setup(more);
+            return grid.interpolation.canonical() + grid.products.canonical();
+        };
+        CHECK(canonical({}) == "--method linear");
+        CHECK(canonical({"--method", "clough-tocher", "--gradients", "octant"}) == "--method clough-tocher");
+        CHECK(canonical({"--method", "clough-tocher", "--gradients", "ring"}) ==
+              "--method clough-tocher --gradients ring");
+        CHECK(canonical({"--method", "smooth", "--smooth-guard", ".250", "--smooth-neighbors", "24"}) ==
+              "--method smooth");
+        CHECK(
+            canonical({"--method", "smooth", "--smooth-kernels", "01.50x1,1x4,2.5x1*1.10,3", "--smooth-guard",
+                       "none", "--smooth-neighbors", "30"}) ==
+            "--method smooth --smooth-kernels 1.5,1x4,2.5x1*1.1,3 --smooth-neighbors 30 --smooth-guard none");
+        CHECK(canonical({"--product", "slope,hillshade", "--slope-unit", "degree", "--z-factor", "0.30",
+                         "--azimuth", "315.0", "--altitude", "30."}) ==
+              "--method linear --product slope,hillshade --z-factor 0.3 --altitude 30");
+    }
+
     TEST_CASE("a name with {product} stands for a file each") {
         CommandGrid command;
         command.setup({"a.csv", "-o", "out_{product}.tif", "--product", "elevation,gradient"});

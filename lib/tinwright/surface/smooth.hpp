@@ -16,6 +16,8 @@ struct SmoothOptions {
             1.5;              ///< of the distance, above 0 and below 4 but not 2; 0: none, the faces' planes
         double stretch = 1;   ///< of distances along which the slope varies most, 1 to 1000
         double handicap = 1;  ///< its prediction error counts times this
+
+        friend bool operator==(const Kernel&, const Kernel&) = default;
     };
     std::vector<Kernel> kernels{{1.5, 1, 1}, {1, 4, 1.04}, {2.5, 1, 1}, {2.5, 2.5, 1.04}, {1.5, 4, 1.04}};
     int neighbors = 24;  ///< 8 to 200, spread over eight octants; those that the TIN has come beside them
