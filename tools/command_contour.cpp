@@ -11,6 +11,7 @@
 #include "console.hpp"
 #include "job_report.hpp"
 #include "option_values.hpp"
+#include "output_metadata.hpp"
 #include "surface_input.hpp"
 
 namespace tinwright::tools {
@@ -21,25 +22,6 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-/// What the file says about itself: of a TIN file, what the file said of its faces.
-io::TinMetadata contour_metadata(const Surface& surface, const CommandContour& command) {
-    const std::string options = command.interpolation.canonical() + " " + command.contours.canonical();
-    io::TinMetadata metadata{{"TINWRIGHT_VERSION", TINWRIGHT_VERSION}, {"TINWRIGHT_COMMAND", "contour"}};
-    const io::TinMetadata criterion = criterion_metadata(surface.criterion);
-    metadata.insert(metadata.end(), criterion.begin(), criterion.end());
-    const io::TinMetadata of_lines = lines_metadata(surface.lines);
-    metadata.insert(metadata.end(), of_lines.begin(), of_lines.end());
-    std::string before = metadata_value(surface.metadata, "TINWRIGHT_OPTIONS");
-    if (surface.report) {
-        before = command.triangulation.canonical() + command.lines.canonical();
-    } else if (command.triangulation.max_edge) {
-        before +=
-            (before.empty() ? "--max-edge " : " --max-edge ") + decimal_text(*command.triangulation.max_edge);
-    }
-    metadata.emplace_back("TINWRIGHT_OPTIONS", before.empty() ? options : before + " " + options);
-    return metadata;
 }
 
 }  // namespace
@@ -151,7 +133,8 @@ Outcome CommandContour::run() {
     report.contours = summarize(made, interpolation.method_text);
     report.contours->seconds = seconds_since(start);
 
-    options.metadata = contour_metadata(surface, *this);
+    options.metadata = output_metadata("contour", surface, triangulation, lines,
+                                       interpolation.canonical() + " " + contours.canonical());
     options.progress = console.progress().stage(0.8, 1);
     start = Clock::now();
     const io::WrittenContours written =

@@ -9,35 +9,10 @@
 #include "console.hpp"
 #include "job_report.hpp"
 #include "option_values.hpp"
+#include "output_metadata.hpp"
 #include "surface_input.hpp"
 
 namespace tinwright::tools {
-
-namespace {
-
-/// What the raster says about itself: of a TIN file, what the file said of its faces.
-io::TinMetadata raster_metadata(const Surface& surface, const CommandGrid& command) {
-    const std::string method = command.interpolation.canonical() + command.products.canonical();
-    io::TinMetadata metadata{{"TINWRIGHT_VERSION", TINWRIGHT_VERSION}, {"TINWRIGHT_COMMAND", "grid"}};
-    const io::TinMetadata criterion = criterion_metadata(surface.criterion);
-    metadata.insert(metadata.end(), criterion.begin(), criterion.end());
-    const io::TinMetadata of_lines = lines_metadata(surface.lines);
-    metadata.insert(metadata.end(), of_lines.begin(), of_lines.end());
-    if (surface.report) {
-        metadata.emplace_back("TINWRIGHT_OPTIONS",
-                              command.triangulation.canonical() + command.lines.canonical() + " " + method);
-        return metadata;
-    }
-    std::string options = metadata_value(surface.metadata, "TINWRIGHT_OPTIONS");
-    if (command.triangulation.max_edge) {
-        options += (options.empty() ? "--max-edge " : " --max-edge ") +
-                   decimal_text(*command.triangulation.max_edge);
-    }
-    metadata.emplace_back("TINWRIGHT_OPTIONS", options.empty() ? method : options + " " + method);
-    return metadata;
-}
-
-}  // namespace
 
 void CommandGrid::setup(const std::vector<std::string>& arguments) {
     const auto parser = make_parser(
@@ -179,7 +154,8 @@ Outcome CommandGrid::run() {
     for (const std::string& warning : gradient_warnings(surface)) {
         console.warn(warning);
     }
-    options.metadata = raster_metadata(surface, *this);
+    options.metadata = output_metadata("grid", surface, triangulation, lines,
+                                       interpolation.canonical() + products.canonical());
     options.progress = console.progress().stage(0.6, 1);
     const io::WrittenGrid written = write(surface, grid, targets, options);
     if (surface.conflicts) {

@@ -8,27 +8,17 @@
 #include "conflict_layer.hpp"
 #include "console.hpp"
 #include "job_report.hpp"
+#include "output_metadata.hpp"
 #include "surface_sampler.hpp"
 
 namespace tinwright::tools {
 
 namespace {
 
-io::TinMetadata table_metadata(const Surface& surface, const CommandSample& command) {
+/// The options that say how the surface is read.
+std::string reading_options(const CommandSample& command) {
     const std::string of_places = command.sample.canonical();
-    std::string options = surface.report ? command.triangulation.canonical() + command.lines.canonical() + " "
-                                         : metadata_value(surface.metadata, "TINWRIGHT_OPTIONS") + " ";
-    options += command.interpolation.canonical() + (of_places.empty() ? "" : " " + of_places);
-    if (options.starts_with(' ')) {
-        options.erase(0, 1);
-    }
-    io::TinMetadata metadata{{"TINWRIGHT_VERSION", TINWRIGHT_VERSION}, {"TINWRIGHT_COMMAND", "sample"}};
-    const io::TinMetadata criterion = criterion_metadata(surface.criterion);
-    metadata.insert(metadata.end(), criterion.begin(), criterion.end());
-    const io::TinMetadata of_lines = lines_metadata(surface.lines);
-    metadata.insert(metadata.end(), of_lines.begin(), of_lines.end());
-    metadata.emplace_back("TINWRIGHT_OPTIONS", options);
-    return metadata;
+    return command.interpolation.canonical() + (of_places.empty() ? "" : " " + of_places);
 }
 
 std::string counted(std::size_t count, const std::string& what) {
@@ -49,7 +39,7 @@ std::string counts_text(const SampledCounts& counts) {
     return counts.step > 0 ? text + " and every " + decimal_text(counts.step) : text;
 }
 
-JsonValue counts_json(const SampledCounts& counts) {
+JsonValue counts_json(const SampledCounts& counts, const std::string& method) {
     JsonValue json = JsonValue::object();
     json.set("points", counts.points).set("outside", counts.outside);
     if (counts.are_lines) {
@@ -58,6 +48,7 @@ JsonValue counts_json(const SampledCounts& counts) {
             json.set("step", counts.step);
         }
     }
+    json.set("method", method);
     return json;
 }
 
@@ -142,8 +133,9 @@ SampledCounts CommandSample::write_samples(const Queries& queries, const Surface
     }
     counts.step = profile.step;
     counts.has_cuts = profile.has_cuts;
-    const auto table = make_sample_table(output, counts.are_lines ? line_columns() : point_columns(),
-                                         surface.crs, table_metadata(surface, *this));
+    const auto table =
+        make_sample_table(output, counts.are_lines ? line_columns() : point_columns(), surface.crs,
+                          output_metadata("sample", surface, triangulation, lines, reading_options(*this)));
     driver = table->driver();
     std::vector<ProfileCurve> curves;
     run_with_threads(triangulation.threads, [&] {
@@ -181,7 +173,8 @@ void CommandSample::report(const SampledCounts& counts, const Surface& surface, 
     }
     console.say(report_text(job, surface, {talk.verbose, talk.verbose}));
     if (talk.json) {
-        print_result(make_json(job, surface).set("sampled", counts_json(counts)).text());
+        print_result(
+            make_json(job, surface).set("sampled", counts_json(counts, interpolation.method_text)).text());
     }
 }
 

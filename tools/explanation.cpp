@@ -64,12 +64,17 @@ class Explainer {
         }
     }
 
-    /// For places so far out that keys do not reach them.
+    /// For places so far out that keys do not reach them; as `SampleTree` of vertices that were given, or of
+    /// all where none was.
     [[nodiscard]] std::optional<VertexId> nearest_of_all(Point2 from) const {
+        const auto is_given = [](std::uint32_t sample) {
+            return sample != Tin::kNoSample && sample != Tin::kCrossing;
+        };
+        const bool is_any_given = std::any_of(tin_.sample.begin(), tin_.sample.end(), is_given);
         std::optional<VertexId> best;
         for (std::uint32_t v = 0; v < tin_.vertex_count(); ++v) {
-            const bool is_given = tin_.sample[v] != Tin::kNoSample && tin_.sample[v] != Tin::kCrossing;
-            if (is_given && (!best || distance(from, {v}) < distance(from, *best))) {
+            if ((is_given(tin_.sample[v]) || !is_any_given) &&
+                (!best || distance(from, {v}) < distance(from, *best))) {
                 best = VertexId{v};
             }
         }

@@ -77,12 +77,20 @@ class CsvTable : public SampleTable {
     std::string text_;
 };
 
+/// Prints at the end only: where a command fails, nothing is on standard output.
 class PrintedTable final : public CsvTable {
   public:
     using CsvTable::CsvTable;
 
+    void finish() override {
+        CsvTable::finish();
+        print_result(printed_);
+    }
+
   private:
-    void write(const std::string& text) override { print_result(text); }
+    void write(const std::string& text) override { printed_ += text; }
+
+    std::string printed_;
 };
 
 class CsvFile final : public CsvTable {

@@ -1,0 +1,37 @@
+#include "output_metadata.hpp"
+
+#include "tinwright/geometry/decimal.hpp"
+
+namespace tinwright::tools {
+
+namespace {
+
+/// The options that made the surface.
+std::string surface_options(const Surface& surface, const TriangulationOptions& triangulation,
+                            const LineOptions& lines) {
+    if (surface.report) {
+        return triangulation.canonical() + lines.canonical();
+    }
+    std::string options = metadata_value(surface.metadata, "TINWRIGHT_OPTIONS");
+    if (triangulation.max_edge) {
+        options += (options.empty() ? "--max-edge " : " --max-edge ") + decimal_text(*triangulation.max_edge);
+    }
+    return options;
+}
+
+}  // namespace
+
+io::TinMetadata output_metadata(const std::string& command, const Surface& surface,
+                                const TriangulationOptions& triangulation, const LineOptions& lines,
+                                const std::string& reading) {
+    io::TinMetadata metadata{{"TINWRIGHT_VERSION", TINWRIGHT_VERSION}, {"TINWRIGHT_COMMAND", command}};
+    const io::TinMetadata criterion = criterion_metadata(surface.criterion);
+    metadata.insert(metadata.end(), criterion.begin(), criterion.end());
+    const io::TinMetadata of_lines = lines_metadata(surface.lines);
+    metadata.insert(metadata.end(), of_lines.begin(), of_lines.end());
+    const std::string before = surface_options(surface, triangulation, lines);
+    metadata.emplace_back("TINWRIGHT_OPTIONS", before.empty() ? reading : before + " " + reading);
+    return metadata;
+}
+
+}  // namespace tinwright::tools
