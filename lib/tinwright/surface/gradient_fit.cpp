@@ -50,7 +50,7 @@ std::span<const GradientWeight> GradientFit::find_stencil(const VertexFan& fan) 
     const VertexId center = tin_.mesh.origin(fan.first);
     double trust = 0;
     if (method_ == GradientMethod::Octant) {
-        search_.find_octants(fan, kPerOctant, false, neighbors_);
+        search_.find_octants(fan, kPerOctant, neighbors_);
         trust = find_trust(center, tie);
         weigh_by_distance(3);  // as what a quadric leaves out of a smooth surface grows
         if (trust > 0 && !(fit(Model::Quadric, tie) && magnification(center) <= kMostMagnification)) {
@@ -102,25 +102,27 @@ double GradientFit::find_trust(VertexId center, const Tie& tie) {
         const double rise = tin_.z[neighbors_[i].vertex.value] - z - slope * dot(tie.direction, offset);
         right_side_.push_back(row_weight_[i] * rise);
     }
-    const double of_quadric = find_misfit(Model::Quadric, tie);
-    const double of_plane = find_misfit(Model::Plane, tie);
-    const bool is_plane = !(of_plane > kFlat * product(right_side_, right_side_));
-    return is_plane ? 0 : std::max(0.0, 1 - kDoubt * of_quadric / of_plane);
-}
-
-/// What a model leaves of the right side, its mean square; infinite for what it could not but meet.
-double GradientFit::find_misfit(Model model, const Tie& tie) {
-    make_columns(model, tie);
-    if (neighbors_.size() <= column_count_) {
-        return std::numeric_limits<double>::infinity();
-    }
+    // A plane's columns first, so that what it leaves is met on the way to what a quadric leaves.
+    make_columns(Model::Quadric, tie, false);
     orthogonalize();
-    double left = product(right_side_, right_side_);
+    const unsigned of_plane = tie.count > 0 ? 1 : 2;
+    const double whole = product(right_side_, right_side_);
+    double left = whole;
+    double left_by_plane = whole;
     for (unsigned j = 0; j < column_count_; ++j) {
+        left_by_plane = j == of_plane ? left : left_by_plane;
         const double part = product(column_[j], right_side_);
         left -= part * part;
     }
-    return std::max(0.0, left) / static_cast<double>(neighbors_.size() - column_count_);
+    const double plane = misfit(left_by_plane, of_plane);
+    return plane > kFlat * whole ? std::max(0.0, 1 - kDoubt * misfit(left, column_count_) / plane) : 0;
+}
+
+/// The mean square of what a model leaves; infinite for what it could not but meet.
+double GradientFit::misfit(double left, unsigned columns) const {
+    const std::size_t rows = neighbors_.size();
+    return rows > columns ? std::max(0.0, left) / static_cast<double>(rows - columns)
+                          : std::numeric_limits<double>::infinity();
 }
 
 Point2 GradientFit::estimate(const VertexFan& fan) {
@@ -185,13 +187,13 @@ void GradientFit::weigh_by_cells() {
 /// Fills `stencil_` from the neighbours and their weights; whether they determine all of the model. What they
 /// do not determine of a plane, few as they are or all on one line, is taken to be zero.
 bool GradientFit::fit(Model model, const Tie& tie) {
-    make_columns(model, tie);
+    make_columns(model, tie, true);
     const bool is_determined = orthogonalize();
     make_stencil(tie);
     return is_determined;
 }
 
-void GradientFit::make_columns(Model model, const Tie& tie) {
+void GradientFit::make_columns(Model model, const Tie& tie, bool are_slopes_last) {
     double farthest2 = 0;
     for (const VertexNeighbor& neighbor : neighbors_) {
         farthest2 = std::max(farthest2, neighbor.distance2);
@@ -199,8 +201,10 @@ void GradientFit::make_columns(Model model, const Tie& tie) {
     const double scale = 1 / std::sqrt(farthest2);
     scale_ = scale;
     const bool is_tied = tie.count > 0;
-    const unsigned first_linear = model == Model::Quadric ? 3 : 0;
-    column_count_ = first_linear + (is_tied ? 1 : 2);
+    const unsigned slopes = is_tied ? 1 : 2;
+    column_count_ = slopes + (model == Model::Quadric ? 3 : 0);
+    const unsigned slope = are_slopes_last ? column_count_ - slopes : 0;
+    const unsigned square = are_slopes_last ? 0 : slopes;
     for (unsigned j = 0; j < column_count_; ++j) {
         column_[j].resize(neighbors_.size());
     }
@@ -209,15 +213,15 @@ void GradientFit::make_columns(Model model, const Tie& tie) {
         const Point2 u{neighbors_[i].offset.x * scale, neighbors_[i].offset.y * scale};
         const double weight = row_weight_[i];
         if (model == Model::Quadric) {
-            column_[0][i] = weight * u.x * u.x;
-            column_[1][i] = weight * u.x * u.y;
-            column_[2][i] = weight * u.y * u.y;
+            column_[square][i] = weight * u.x * u.x;
+            column_[square + 1][i] = weight * u.x * u.y;
+            column_[square + 2][i] = weight * u.y * u.y;
         }
         if (is_tied) {
-            column_[first_linear][i] = weight * ((tie.direction.x * u.y - tie.direction.y * u.x) / length);
+            column_[slope][i] = weight * ((tie.direction.x * u.y - tie.direction.y * u.x) / length);
         } else {
-            column_[first_linear][i] = weight * u.x;
-            column_[first_linear + 1][i] = weight * u.y;
+            column_[slope][i] = weight * u.x;
+            column_[slope + 1][i] = weight * u.y;
         }
     }
 }

@@ -49,10 +49,10 @@ class GradientFit {
     bool fit(Model model, const Tie& tie);
     void fit_ring(const VertexFan& fan, const Tie& tie);
     double find_trust(VertexId center, const Tie& tie);
-    double find_misfit(Model model, const Tie& tie);
+    [[nodiscard]] double misfit(double left, unsigned columns) const;
     void weigh_by_distance(int power);
     void weigh_by_cells();
-    void make_columns(Model model, const Tie& tie);
+    void make_columns(Model model, const Tie& tie, bool are_slopes_last);
     double subtract_others(unsigned j, double before);
     bool orthogonalize();
     void make_stencil(const Tie& tie);
@@ -66,7 +66,7 @@ class GradientFit {
     NeighborSearch search_;
     std::vector<VertexNeighbor> neighbors_;
     std::vector<double> row_weight_;  // one a neighbour: square root of its weight in the sum of squares
-    std::array<std::vector<double>, kMostColumns> column_;  // those of the gradient last
+    std::array<std::vector<double>, kMostColumns> column_;
     unsigned column_count_ = 0;
     std::array<std::array<double, kMostColumns>, kMostColumns> r_{};
     double scale_ = 1;  // of the columns to steps

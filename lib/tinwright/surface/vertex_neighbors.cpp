@@ -13,7 +13,8 @@ namespace tinwright {
 
 namespace {
 
-bool is_nearer(const VertexNeighbor& a, const VertexNeighbor& b) {
+template <class Neighbor>
+bool is_nearer(const Neighbor& a, const Neighbor& b) {
     return a.distance2 < b.distance2 || (a.distance2 == b.distance2 && a.vertex < b.vertex);
 }
 
@@ -102,16 +103,15 @@ bool NeighborSearch::sees(const VertexFan& fan, VertexId target) const {
 void NeighborSearch::find_ring(const VertexFan& fan, std::vector<VertexNeighbor>& neighbors) {
     center_ = tin_.mesh.origin(fan.first);
     neighbors.clear();
-    visit_fan(tin_.mesh, fan,
-              [&](HalfEdgeId h) { neighbors.push_back(neighbor(tin_.mesh.destination(h), true)); });
+    visit_fan(tin_.mesh, fan, [&](HalfEdgeId h) { neighbors.push_back(neighbor(tin_.mesh.destination(h))); });
     const VertexId last = last_neighbor(tin_.mesh, fan);
     if (last != neighbors.front().vertex) {
-        neighbors.push_back(neighbor(last, true));
+        neighbors.push_back(neighbor(last));
     }
-    std::sort(neighbors.begin(), neighbors.end(), is_nearer);
+    std::sort(neighbors.begin(), neighbors.end(), is_nearer<VertexNeighbor>);
 }
 
-void NeighborSearch::find_octants(const VertexFan& fan, unsigned per_octant, bool with_ring,
+void NeighborSearch::find_octants(const VertexFan& fan, unsigned per_octant,
                                   std::vector<VertexNeighbor>& neighbors) {
     assert(per_octant >= 1 && per_octant <= kMostPerOctant);
     has_met_wall_ = !fan.is_closed;
@@ -123,27 +123,16 @@ void NeighborSearch::find_octants(const VertexFan& fan, unsigned per_octant, boo
     }
     neighbors.clear();
     for (const Octant& octant : octants_) {
-        neighbors.insert(neighbors.end(), octant.nearest.begin(), octant.nearest.begin() + octant.count);
-    }
-    if (with_ring) {
-        const std::size_t chosen = neighbors.size();
-        for (std::size_t i = 0; i < ring_count_; ++i) {
-            const VertexId v = tin_.mesh.origin(queue_[i]);
-            const auto end = neighbors.begin() + static_cast<std::ptrdiff_t>(chosen);
-            if (std::none_of(neighbors.begin(), end,
-                             [&](const VertexNeighbor& other) { return other.vertex == v; })) {
-                neighbors.push_back(neighbor(v, true));
-                neighbors.back().is_of_octants = false;
-            }
+        for (unsigned i = 0; i < octant.count; ++i) {
+            neighbors.push_back(neighbor(octant.nearest[i].vertex));
         }
     }
-    std::sort(neighbors.begin(), neighbors.end(), is_nearer);
 }
 
-VertexNeighbor NeighborSearch::neighbor(VertexId vertex, bool is_adjacent) const {
+VertexNeighbor NeighborSearch::neighbor(VertexId vertex) const {
     const Key2 from = tin_.key(center_);
     const Key2 to = tin_.key(vertex);
-    return {vertex, {to.x - from.x, to.y - from.y}, squared_distance(from, to), is_adjacent, true};
+    return {vertex, {to.x - from.x, to.y - from.y}, squared_distance(from, to)};
 }
 
 void NeighborSearch::collect(const VertexFan& fan, unsigned per_octant, bool is_sight_checked) {
@@ -157,8 +146,7 @@ void NeighborSearch::collect(const VertexFan& fan, unsigned per_octant, bool is_
     const Order order{fan, per_octant, is_sight_checked};
     visit_fan(tin_.mesh, fan, [&](HalfEdgeId h) { visit(next(h), true, order); });
     visit(previous(fan.last), true, order);
-    ring_count_ = queue_.size();
-    const std::size_t most = ring_count_ + kMostVisits;
+    const std::size_t most = queue_.size() + kMostVisits;
     std::size_t begin = 0;
     for (int level = 1; level < kLevels && !are_octants_full(per_octant); ++level) {
         const std::size_t end = queue_.size();
@@ -198,8 +186,10 @@ void NeighborSearch::visit(HalfEdgeId corner, bool is_adjacent, const Order& ord
         return;
     }
     queue_.push_back(corner);
-    const VertexNeighbor candidate = neighbor(v, is_adjacent);
-    Octant& octant = octants_[octant_of(candidate.offset)];
+    const Key2 from = tin_.key(center_);
+    const Key2 to = tin_.key(v);
+    const Candidate candidate{squared_distance(from, to), v};
+    Octant& octant = octants_[octant_of({to.x - from.x, to.y - from.y})];
     const bool is_full = octant.count == order.per_octant;
     if ((is_full && !is_nearer(candidate, octant.nearest[octant.count - 1])) ||
         (order.is_sight_checked && !is_adjacent && !sees(order.fan, v))) {

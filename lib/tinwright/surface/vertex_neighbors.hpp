@@ -14,17 +14,15 @@ namespace tinwright {
 /// A vertex that another one's surface is estimated from.
 struct VertexNeighbor {
     VertexId vertex{};
-    Key2 offset{};              ///< from the other vertex, steps of the TIN's lattice; exact
-    double distance2 = 0;       ///< squared length of the offset
-    bool is_adjacent = false;   ///< the two share an edge of the fan
-    bool is_of_octants = true;  ///< chosen for its octant; false: only for being adjacent
+    Key2 offset{};         ///< from the other vertex, steps of the TIN's lattice; exact
+    double distance2 = 0;  ///< squared length of the offset
 };
 
 /// Finds neighbours of vertices on their own side of sharp edges and the border. For one thread: keeps
 /// memory from one search to the next, never what was found.
 class NeighborSearch {
   public:
-    static constexpr unsigned kMostPerOctant = 8;
+    static constexpr unsigned kMostPerOctant = 4;
 
     /// Both must outlive the search.
     NeighborSearch(const Tin& tin, const SharpEdges& sharp) : tin_(tin), sharp_(sharp) {}
@@ -33,15 +31,14 @@ class NeighborSearch {
     void find_ring(const VertexFan& fan, std::vector<VertexNeighbor>& neighbors);
 
     /// For each of eight octants around a fan's vertex the nearest `per_octant` vertices (1 to
-    /// kMostPerOctant; fewer where there are no more) of those within a few edges that it sees; nearest
-    /// first. With `with_ring` all that are adjacent come too.
+    /// kMostPerOctant; fewer where there are no more) of those within a few edges that it sees; octant by
+    /// octant, nearest first in each.
     ///
     /// The mesh is walked outwards, never across a wall, level by level, until all octants are full or
     /// kLevels is reached, which is the normal end at the hull; on ship tracks a level is what leads to the
     /// next track. A vertex is seen if the straight line to it crosses no wall. Touching an end of a wall is
     /// not crossing it. O(1) beside the ring: at most kMostVisits vertices are looked at.
-    void find_octants(const VertexFan& fan, unsigned per_octant, bool with_ring,
-                      std::vector<VertexNeighbor>& neighbors);
+    void find_octants(const VertexFan& fan, unsigned per_octant, std::vector<VertexNeighbor>& neighbors);
 
     /// Whether a fan's vertex sees another across its own faces.
     [[nodiscard]] bool sees(const VertexFan& fan, VertexId target) const;
@@ -50,8 +47,12 @@ class NeighborSearch {
     static constexpr int kLevels = 4;
     static constexpr std::size_t kMostVisits = 256;
 
+    struct Candidate {
+        double distance2;
+        VertexId vertex;
+    };
     struct Octant {
-        std::array<VertexNeighbor, kMostPerOctant> nearest;
+        std::array<Candidate, kMostPerOctant> nearest;
         unsigned count = 0;
     };
 
@@ -64,7 +65,7 @@ class NeighborSearch {
     void collect(const VertexFan& fan, unsigned per_octant, bool is_sight_checked);
     void visit_around(HalfEdgeId corner, std::size_t most, const Order& order);
     void visit(HalfEdgeId corner, bool is_adjacent, const Order& order);
-    [[nodiscard]] VertexNeighbor neighbor(VertexId vertex, bool is_adjacent) const;
+    [[nodiscard]] VertexNeighbor neighbor(VertexId vertex) const;
     [[nodiscard]] bool are_octants_full(unsigned per_octant) const;
     bool insert_visited(VertexId vertex);
     void clear_visited();
@@ -74,7 +75,6 @@ class NeighborSearch {
     VertexId center_{};
     std::array<Octant, 8> octants_;
     std::vector<HalfEdgeId> queue_;  // a corner of each visited vertex, of a face that it was found from
-    std::size_t ring_count_ = 0;     // those of the queue's beginning that are adjacent
     bool has_met_wall_ = false;
 
     // Set of vertices: open addressing; an entry counts if it has the present epoch.
