@@ -128,7 +128,7 @@ Work our_bands(const Points& points, double interval) {
     };
 }
 
-/// As many cells as the TIN has vertices.
+/// As many cells as the TIN has faces: lines then have about as many points.
 std::vector<float> rasterise(const Points& points, int side, std::array<double, 6>& transform) {
     const tinwright::Tin tin = tinwright::triangulate(points).tin;
     const tinwright::Box box = tin.bounds();
@@ -143,7 +143,7 @@ std::vector<float> rasterise(const Points& points, int side, std::array<double, 
 
 Work gdal_contours(const Points& points, double interval, bool is_polygons) {
     return [&points, interval, is_polygons](Meter& meter) {
-        const auto side = static_cast<int>(std::lround(std::sqrt(static_cast<double>(points.size()))));
+        const auto side = static_cast<int>(std::lround(std::sqrt(2 * static_cast<double>(points.size()))));
         std::array<double, 6> transform{};
         std::vector<float> values = rasterise(points, side, transform);
         MemoryLayer layer(is_polygons ? wkbMultiPolygon : wkbLineString);

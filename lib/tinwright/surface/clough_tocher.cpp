@@ -78,6 +78,7 @@ class FaceSurface {
     std::array<HalfEdgeId, 3> corner_{};  // that of the smallest vertex first, wherever the face starts
     std::array<Key2, 3> key_{};
     double area_ = 1;
+    double inverse_area_ = 1;
     double step_ = 1;
     std::array<double, 3> z_{};
     std::array<Point2, 3> gradient_{};
@@ -109,6 +110,7 @@ FaceSurface::FaceSurface(const CloughTocherSurface& surface, FaceId face)
     const double second = edge[0].y * edge[2].x;
     is_needle_ = !(std::abs(second - first) > kNeedle * (std::abs(first) + std::abs(second)));
     area_ = doubled_area(key_[0], key_[1], key_[2]);
+    inverse_area_ = 1 / area_;
     CubicFaceData data{z_, {}};
     for (unsigned i = 0; i < 3; ++i) {
         const unsigned next = i == 2 ? 0 : i + 1;
@@ -137,8 +139,8 @@ Shares FaceSurface::shares(Key2 at) const {
         }
         return (key_[i].x - at.x) * (key_[j].y - at.y) - (key_[i].y - at.y) * (key_[j].x - at.x);
     };
-    const double b = area(2, 0) / area_;
-    const double c = area(0, 1) / area_;
+    const double b = area(2, 0) * inverse_area_;
+    const double c = area(0, 1) * inverse_area_;
     return {1 - b - c, b, c};
 }
 

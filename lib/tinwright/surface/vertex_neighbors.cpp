@@ -135,6 +135,22 @@ VertexNeighbor NeighborSearch::neighbor(VertexId vertex) const {
     return {vertex, {to.x - from.x, to.y - from.y}, squared_distance(from, to)};
 }
 
+/// Whether the vertex was not in the set.
+inline bool NeighborSearch::insert_visited(VertexId vertex) {
+    const std::size_t mask = visited_.size() - 1;
+    std::size_t place = (vertex.value * 0x9E3779B1U) & mask;
+    for (; visited_[place].epoch == epoch_; place = (place + 1) & mask) {
+        if (visited_[place].vertex == vertex.value) {
+            return false;
+        }
+    }
+    visited_[place] = {vertex.value, epoch_};
+    if (2 * ++visited_count_ > visited_.size()) {
+        grow_visited();
+    }
+    return true;
+}
+
 void NeighborSearch::collect(const VertexFan& fan, unsigned per_octant, bool is_sight_checked) {
     center_ = tin_.mesh.origin(fan.first);
     for (Octant& octant : octants_) {
@@ -148,7 +164,7 @@ void NeighborSearch::collect(const VertexFan& fan, unsigned per_octant, bool is_
     visit(previous(fan.last), true, order);
     const std::size_t most = queue_.size() + kMostVisits;
     std::size_t begin = 0;
-    for (int level = 1; level < kLevels && !are_octants_full(per_octant); ++level) {
+    for (int level = 1; level < kLevels && !have_octants(level == 1 ? per_octant : 1); ++level) {
         const std::size_t end = queue_.size();
         for (std::size_t i = begin; i < end && queue_.size() < most; ++i) {
             visit_around(queue_[i], most, order);
@@ -202,34 +218,23 @@ void NeighborSearch::visit(HalfEdgeId corner, bool is_adjacent, const Order& ord
     octant.nearest[place] = candidate;
 }
 
-bool NeighborSearch::are_octants_full(unsigned per_octant) const {
+bool NeighborSearch::have_octants(unsigned count) const {
     return std::all_of(octants_.begin(), octants_.end(),
-                       [&](const Octant& octant) { return octant.count == per_octant; });
+                       [&](const Octant& octant) { return octant.count >= count; });
 }
 
-bool NeighborSearch::insert_visited(VertexId vertex) {
-    const std::size_t mask = visited_.size() - 1;
-    std::size_t place = (std::size_t{vertex.value} * 0x9E3779B1U) & mask;
-    for (; visited_[place].epoch == epoch_; place = (place + 1) & mask) {
-        if (visited_[place].vertex == vertex.value) {
-            return false;
+void NeighborSearch::grow_visited() {
+    const std::vector<Visited> old = std::exchange(visited_, std::vector<Visited>(4 * visited_.size()));
+    visited_count_ = 0;
+    for (const Visited& entry : old) {
+        if (entry.epoch == epoch_) {
+            insert_visited({entry.vertex});
         }
     }
-    visited_[place] = {vertex.value, epoch_};
-    if (2 * ++visited_count_ > visited_.size()) {
-        const std::vector<Visited> old = std::exchange(visited_, std::vector<Visited>(4 * visited_.size()));
-        visited_count_ = 0;
-        for (const Visited& entry : old) {
-            if (entry.epoch == epoch_) {
-                insert_visited({entry.vertex});
-            }
-        }
-    }
-    return true;
 }
 
 void NeighborSearch::clear_visited() {
-    constexpr std::size_t kSmall = 1024;
+    constexpr std::size_t kSmall = 512;
     if (visited_.empty() || ++epoch_ == 0) {
         visited_.assign(std::max(visited_.size(), kSmall), {0, 0});
         epoch_ = 1;

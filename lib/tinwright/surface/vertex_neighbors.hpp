@@ -34,10 +34,11 @@ class NeighborSearch {
     /// kMostPerOctant; fewer where there are no more) of those within a few edges that it sees; octant by
     /// octant, nearest first in each.
     ///
-    /// The mesh is walked outwards, never across a wall, level by level, until all octants are full or
-    /// kLevels is reached, which is the normal end at the hull; on ship tracks a level is what leads to the
-    /// next track. A vertex is seen if the straight line to it crosses no wall. Touching an end of a wall is
-    /// not crossing it. O(1) beside the ring: at most kMostVisits vertices are looked at.
+    /// The mesh is walked outwards, never across a wall, level by level: the second level is left out where
+    /// the first fills all octants, further ones where none is empty, and kLevels is the end, normally at the
+    /// hull; on ship tracks a level is what leads to the next track. A vertex is seen if the straight line to
+    /// it crosses no wall. Touching an end of a wall is not crossing it. O(1) beside the ring: at most
+    /// kMostVisits vertices are looked at.
     void find_octants(const VertexFan& fan, unsigned per_octant, std::vector<VertexNeighbor>& neighbors);
 
     /// Whether a fan's vertex sees another across its own faces.
@@ -66,8 +67,9 @@ class NeighborSearch {
     void visit_around(HalfEdgeId corner, std::size_t most, const Order& order);
     void visit(HalfEdgeId corner, bool is_adjacent, const Order& order);
     [[nodiscard]] VertexNeighbor neighbor(VertexId vertex) const;
-    [[nodiscard]] bool are_octants_full(unsigned per_octant) const;
+    [[nodiscard]] bool have_octants(unsigned count) const;  ///< each of them at least so many
     bool insert_visited(VertexId vertex);
+    void grow_visited();
     void clear_visited();
 
     const Tin& tin_;
