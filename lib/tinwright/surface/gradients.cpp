@@ -94,16 +94,17 @@ std::size_t visit_fans(const TriangleMesh& mesh, const SharpEdges& sharp, HalfEd
     return faces;
 }
 
-/// Whether turning around a vertex leads from one half-edge to another.
-bool is_in_turn(const TriangleMesh& mesh, HalfEdgeId start, HalfEdgeId wanted) {
-    HalfEdgeId h = start;
-    do {
-        if (h == wanted) {
-            return true;
-        }
-        h = next_around(mesh, h);
-    } while (h != start);
-    return false;
+/// Marks the half-edges that turning around vertices leads to from where they start.
+std::vector<bool> mark_turns(const TriangleMesh& mesh, const std::vector<HalfEdgeId>& starts) {
+    std::vector<bool> is_in_turn(4 * mesh.slot_count());
+    for (const HalfEdgeId start : starts) {
+        HalfEdgeId h = start;
+        do {
+            is_in_turn[h.value] = true;
+            h = h == kNoHalfEdge ? start : next_around(mesh, h);
+        } while (h != start);
+    }
+    return is_in_turn;
 }
 
 }  // namespace
@@ -207,11 +208,11 @@ void CornerGradients::State::estimate_other_turns(const std::vector<HalfEdgeId>&
     const TriangleMesh& mesh = tin.mesh;
     GradientFit fit(tin, sharp, method);
     std::vector<Override> own;
-    std::vector<bool> is_done(4 * mesh.slot_count());
+    std::vector<bool> is_done = mark_turns(mesh, starts);
     for (std::uint32_t f = 0; f < mesh.slot_count(); ++f) {
         for (unsigned corner = 0; corner < 3 && mesh.is_terrain({f}); ++corner) {
             const HalfEdgeId h = half_edge({f}, corner);
-            if (is_done[h.value] || is_in_turn(mesh, starts[mesh.origin(h).value], h)) {
+            if (is_done[h.value]) {
                 continue;
             }
             const VertexFan fan = find_fan(mesh, sharp, h);
