@@ -47,11 +47,6 @@ std::vector<Product> parse_products(const std::vector<std::string>& texts) {
     return products;
 }
 
-bool is_from_gradient(Product product) {
-    return product != Product::Elevation && product != Product::NearestDistance &&
-           product != Product::FaceNumber;
-}
-
 }  // namespace
 
 void ProductOptions::add_to(CLI::App& parser) {

@@ -8,6 +8,7 @@
 #include "tinwright/geometry/constructions.hpp"
 #include "tinwright/geometry/large_vector.hpp"
 #include "tinwright/surface/cubic_face.hpp"
+#include "tinwright/surface/weight_sums.hpp"
 
 namespace tinwright {
 
@@ -235,17 +236,7 @@ void FaceSurface::find_weights(const CloughTocherSurface& surface, Key2 at,
             weights.push_back({each.vertex, dot(of_gradient, each.weight)});
         }
     }
-    std::stable_sort(weights.begin(), weights.end(),
-                     [](const VertexWeight& a, const VertexWeight& b) { return a.vertex < b.vertex; });
-    std::size_t count = 0;
-    for (const VertexWeight& each : weights) {
-        if (count > 0 && weights[count - 1].vertex == each.vertex) {
-            weights[count - 1].weight += each.weight;
-        } else {
-            weights[count++] = each;
-        }
-    }
-    weights.resize(count);
+    sum_weights(weights);
 }
 
 class CloughTocherReader final : public SurfaceReader {

@@ -22,11 +22,6 @@ namespace {
 
 constexpr std::int64_t kCellsOfTask = 4096;
 
-bool is_from_gradient(Product product) {
-    return product != Product::Elevation && product != Product::NearestDistance &&
-           product != Product::FaceNumber;
-}
-
 /// What one thread keeps from cell to cell.
 struct Worker {
     std::unique_ptr<SurfaceReader> reader;
@@ -175,6 +170,11 @@ std::int64_t SurfaceGridder::State::fill(std::int64_t band, std::span<const std:
         }
     }
     return covered;
+}
+
+bool is_from_gradient(Product product) {
+    return product != Product::Elevation && product != Product::NearestDistance &&
+           product != Product::FaceNumber;
 }
 
 SurfaceGridder::SurfaceGridder(const Tin& tin, const Interpolator* surface, const GridGeometry& grid,

@@ -39,6 +39,9 @@ inline constexpr auto kProducts = std::to_array<std::pair<std::string_view, Prod
     {"face-id", Product::FaceNumber},
 });
 
+/// Whether a product is made from the surface's gradient.
+bool is_from_gradient(Product product);
+
 struct GriddingOptions {
     std::vector<Product> products{Product::Elevation};
     SlopeUnit slope_unit = SlopeUnit::Degree;

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "tinwright/surface/step_vectors.hpp"
+#include "tinwright/surface/weight_sums.hpp"
 
 namespace tinwright {
 
@@ -211,18 +212,7 @@ void NeighborBlend::find_weights(const NeighborCavity& cavity, std::vector<Verte
             weights.push_back({part.vertex, lattice_.step() * dot(of_gradient, part.weight)});
         }
     }
-    // Each vertex once: its parts are summed in the order they came.
-    std::stable_sort(weights.begin(), weights.end(),
-                     [](const VertexWeight& a, const VertexWeight& b) { return a.vertex < b.vertex; });
-    std::size_t count = 0;
-    for (const VertexWeight& part : weights) {
-        if (count > 0 && weights[count - 1].vertex == part.vertex) {
-            weights[count - 1].weight += part.weight;
-        } else {
-            weights[count++] = part;
-        }
-    }
-    weights.resize(count);
+    sum_weights(weights);
 }
 
 }  // namespace tinwright

@@ -5,27 +5,13 @@
 
 #include "tinwright/geometry/constructions.hpp"
 #include "tinwright/surface/vertex_fan.hpp"
+#include "tinwright/surface/weight_sums.hpp"
 
 namespace tinwright {
 
 namespace {
 
 double inner(Point2 a, Point2 b) { return a.x * b.x + a.y * b.y; }
-
-/// Adds up the weights of each vertex, always in the same order.
-void merge(std::vector<VertexWeight>& weights) {
-    std::stable_sort(weights.begin(), weights.end(),
-                     [](const VertexWeight& a, const VertexWeight& b) { return a.vertex < b.vertex; });
-    std::size_t count = 0;
-    for (const VertexWeight& weight : weights) {
-        if (count > 0 && weights[count - 1].vertex == weight.vertex) {
-            weights[count - 1].weight += weight.weight;
-        } else {
-            weights[count++] = weight;
-        }
-    }
-    weights.resize(count);
-}
 
 }  // namespace
 
@@ -221,7 +207,7 @@ void SmoothReader::find_weights(const SurfacePlace& place, std::vector<VertexWei
     for (unsigned i = 0; i < 3; ++i) {
         add_weights(i, place.at, share, blend.share[i], weights);
     }
-    merge(weights);
+    sum_weights(weights);
 }
 
 /// Fits the spline of a corner once more: its shares are not kept.
