@@ -154,6 +154,20 @@ void check_nodata(GDALDataType type, double nodata) {
     }
 }
 
+/// Refuses what would write other values than asked for, or bands that mean something else to readers.
+void check_keeps_values(const std::string& name, const std::vector<Product>& products) {
+    if (name == "JPEG" && products != std::vector{Product::Hillshade}) {
+        throw UsageError(
+            "the driver \"JPEG\" changes values to save space, nodata too; use another, such as GTiff");
+    }
+    if (name == "PNG" && products.size() % 2 == 0) {
+        throw UsageError(
+            "the driver \"PNG\" takes the last of " + std::to_string(products.size()) +
+            " bands for transparency; {product} in the name of the output writes each product to a "
+            "file of its own");
+    }
+}
+
 }  // namespace
 
 IntegerRange integer_range(GDALDataType type) {
@@ -179,6 +193,7 @@ RasterDriver find_raster_driver(const std::string& target, const WriteGridOption
     register_drivers();
     RasterDriver found;
     found.driver = options.driver.empty() ? find_by_extension(target) : find_by_name(options.driver);
+    check_keeps_values(found.name(), options.gridding.products);
     found.can_create = has_capability(found.driver, GDAL_DCAP_CREATE);
     found.type = find_type(found.driver, options.data_type, options.gridding.products);
     check_creation_options(found.driver, options.creation_options);

@@ -311,6 +311,13 @@ void GridWriter::copy_from(GDALDataset& source, const std::string& path) {
         dataset.reset();
         std::rethrow_exception(watch.stopped);
     }
+    if (dataset == nullptr && band_count() > 1) {
+        throw IoError(
+            "cannot write " + std::to_string(band_count()) + " bands to " + quoted(target_) + " as " +
+            driver_.name() +
+            "; perhaps {product} in its name, which writes each product to a file of its own, will do" +
+            messages_.suffix());
+    }
     if (dataset == nullptr) {
         fail();
     }
