@@ -186,14 +186,8 @@ class Explainer {
 
     void explain_methods(const SurfacePlace& place, Explanation& result) const {
         for (const auto& [name, method] : kInterpolationMethods) {
-            const bool is_costly =
-                method == InterpolationMethod::Smooth || method == InterpolationMethod::SmoothC1;
             InterpolationOptions options = options_.interpolation.options;
             const bool is_asked = options.method == method;
-            if (is_costly && !is_asked && tin_.vertex_count() > kMostSmoothed) {
-                result.left_out.emplace_back(name);
-                continue;
-            }
             if (method == InterpolationMethod::SmoothC1 && !is_asked) {
                 std::erase_if(options.smooth.kernels,
                               [](const SmoothOptions::Kernel& kernel) { return kernel.exponent < 1.5; });

@@ -75,18 +75,14 @@ struct Explanation {
     std::string made_by;                 ///< a sentence
     std::optional<double> measure;       ///< of the face under the TIN's criterion
     std::vector<ExplainedMethod> methods;
-    std::vector<std::string> left_out;  ///< methods not asked, as it would take long
 };
 
 struct ExplainOptions {
     Point2 at{};
-    const InterpolationChoice& interpolation;  ///< options of methods; the one that is asked in any case
+    const InterpolationChoice& interpolation;  ///< options of methods, for the one it names
     SlopeUnit slope_unit = SlopeUnit::Degree;
     int threads = 0;
 };
-
-/// Smooth surfaces are prepared as a whole: of TINs with more vertices only if `--method` asks for them.
-inline constexpr std::size_t kMostSmoothed = 50000;
 
 /// Parallel inside the caller's task arena. Throws InputError for a surface without vertices.
 Explanation explain(const Surface& surface, const ExplainOptions& options);

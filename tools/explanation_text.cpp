@@ -199,9 +199,6 @@ std::string explanation_text(const Explanation& explanation, const Surface& surf
                 (has_incline ? ", slope " + incline_text(method.reading.gradient, options.slope_unit) : ""));
         text.add("  shares", shares_text(method.weights));
     }
-    for (const std::string& method : explanation.left_out) {
-        text.add(method, "not asked of so many vertices; --method " + method + " does");
-    }
     return text.take();
 }
 
@@ -228,10 +225,9 @@ JsonValue explanation_json(const Explanation& explanation, const Surface& surfac
                                 .set("value", *explanation.measure)
                                 .set("unit", surface.criterion.unit));
     }
-    json.set("methods", array_made(explanation.methods, [&](const ExplainedMethod& method) {
-                 return method_json(method, options.slope_unit);
-             }));
-    return json.set("left_out", JsonValue::array_of(explanation.left_out));
+    return json.set("methods", array_made(explanation.methods, [&](const ExplainedMethod& method) {
+                        return method_json(method, options.slope_unit);
+                    }));
 }
 
 }  // namespace tinwright::tools
