@@ -69,6 +69,9 @@ Outcome CommandExplain::run() {
     const bool is_tin = is_existing_tin(request);
     const Surface surface =
         is_tin ? read_existing_tin(request, console) : triangulate_sources(request, console);
+    if (const std::string warning = slope_warning(surface.crs, surface.z_unit); !warning.empty()) {
+        console.warn(warning);
+    }
     const ExplainOptions options{at, interpolation, sample.slope_unit, triangulation.threads};
     Explanation explanation;
     run_with_threads(triangulation.threads, [&] { explanation = explain(surface, options); });

@@ -86,12 +86,8 @@ std::vector<std::string> CommandGrid::gradient_warnings(const Surface& surface) 
     if (!products.has_gradients() || !products.z_factor_text.empty()) {
         return {};
     }
-    const std::string unit = surface.crs.unit();
-    if (unit.empty() || surface.z_unit.empty() || unit == surface.z_unit) {
-        return {};
-    }
-    return {"slopes are z units per CRS unit: z is in " + surface.z_unit + ", the CRS in " + unit +
-            "; --z-factor converts"};
+    const std::string warning = slope_warning(surface.crs, surface.z_unit);
+    return warning.empty() ? std::vector<std::string>() : std::vector{warning + "; --z-factor converts"};
 }
 
 io::WrittenGrid CommandGrid::write(const Surface& surface, const GridGeometry& grid,

@@ -346,4 +346,10 @@ std::vector<std::string> criterion_warnings(const TriangulationOptions& options,
     return warnings;
 }
 
+std::string slope_warning(const io::Crs& crs, const std::string& z_unit) {
+    const bool is_known = crs.is_geographic() || (!crs.unit().empty() && !z_unit.empty());
+    const std::string doubt = is_known ? slope_unit_doubt(crs, z_unit) : std::string();
+    return doubt.empty() ? doubt : "slopes are z units per CRS unit: " + doubt;
+}
+
 }  // namespace tinwright::tools

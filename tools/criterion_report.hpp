@@ -57,6 +57,9 @@ std::vector<std::string> criterion_warnings(const TriangulationOptions& options,
                                             const TriangulateReport& result, const io::Crs& crs,
                                             const std::string& z_unit);
 
+/// A warning that slopes are no rise over run, where the units are known to differ; else empty.
+std::string slope_warning(const io::Crs& crs, const std::string& z_unit);
+
 }  // namespace tinwright::tools
 
 #endif
