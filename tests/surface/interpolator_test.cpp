@@ -14,9 +14,11 @@
 #include <tbb/global_control.h>
 
 #include "tinwright/geometry/constructions.hpp"
+#include "tinwright/geometry/error.hpp"
 #include "tinwright/surface/interpolation.hpp"
 
 #include "support/cases.hpp"
+#include "support/messages.hpp"
 #include "support/point_sets.hpp"
 #include "support/random_tins.hpp"
 #include "support/tins.hpp"
@@ -304,5 +306,21 @@ TEST_SUITE("surface/interpolator") {
             // Differences may straddle an edge, a kernel's own crease, or where a value is clamped.
             CHECK(bad * 10 <= all);
         });
+    }
+
+    TEST_CASE("elevations that no sum of squares holds are refused by what needs such sums") {
+        for (const auto& [name, method] : kInterpolationMethods) {
+            CAPTURE(std::string(name));
+            const Tin tin = tin_of_samples({{0, 0, 0}, {10, 0, 1e101}, {0, 10, 5}});
+            const auto make = [&, chosen = method] { Reading(tin, chosen); };
+            if (method == InterpolationMethod::Linear || method == InterpolationMethod::Nearest) {
+                CHECK_NOTHROW(make());
+            } else {
+                const std::string message = message_of<InputError>(make);
+                CHECK(message.starts_with("the elevation 1"));
+                CHECK(message.ends_with(
+                    " at (10, 0) is beyond 1e100, which only the methods linear and nearest can read"));
+            }
+        }
     }
 }

@@ -10,6 +10,14 @@
 /// Ways through a mesh from one half-edge to the next.
 namespace tinwright {
 
+/// The corner of a face whose vertex has the smallest id: where to begin so that nothing depends on where the
+/// face starts.
+inline unsigned smallest_corner(const TriangleMesh& mesh, FaceId f) {
+    const auto& v = mesh.face(f).vertex;
+    const unsigned first = v[1] < v[0] ? 1 : 0;
+    return v[2] < v[first] ? 2 : first;
+}
+
 /// The next half-edge from the same origin, counter-clockwise.
 inline HalfEdgeId next_around(const TriangleMesh& mesh, HalfEdgeId h) { return mesh.twin(previous(h)); }
 

@@ -7,6 +7,7 @@
 
 #include "tinwright/geometry/constructions.hpp"
 #include "tinwright/geometry/large_vector.hpp"
+#include "tinwright/mesh/mesh_walk.hpp"
 #include "tinwright/surface/cubic_face.hpp"
 #include "tinwright/surface/weight_sums.hpp"
 
@@ -95,8 +96,7 @@ FaceSurface::FaceSurface(const CloughTocherSurface& surface, FaceId face)
     : face_(face), step_(surface.lattice.step()), is_limited_(!surface.ranges.empty()) {
     const Tin& tin = surface.tin;
     const auto& v = tin.mesh.face(face).vertex;
-    unsigned corner = v[1] < v[0] ? 1 : 0;
-    corner = v[2] < v[corner] ? 2 : corner;
+    unsigned corner = smallest_corner(tin.mesh, face);
     for (unsigned i = 0; i < 3; ++i, corner = next_corner(corner)) {
         corner_[i] = half_edge(face, corner);
         key_[i] = surface.lattice.scaled(tin.key(v[corner]));

@@ -26,6 +26,9 @@ constexpr double kFlat = 1e-24;
 constexpr double kPoor = 1e-5;
 constexpr double kDependent = 1e-14;
 
+// Of more neighbours the cells are not looked for, which takes the square of their number.
+constexpr std::size_t kMostCells = 256;
+
 double dot(Point2 a, Point2 b) { return a.x * b.x + a.y * b.y; }
 
 /// In four sums, so that additions need not wait for each other.
@@ -75,7 +78,7 @@ std::span<const GradientWeight> GradientFit::find_stencil(const VertexFan& fan) 
 }
 
 void GradientFit::fit_ring(const VertexFan& fan, const Tie& tie) {
-    if (method_ == GradientMethod::Sibson && fan.is_closed) {
+    if (method_ == GradientMethod::Sibson && fan.is_closed && neighbors_.size() <= kMostCells) {
         weigh_by_cells();
         if (fit(Model::Plane, tie)) {
             return;

@@ -18,7 +18,7 @@ enum class GradientMethod : std::uint8_t {
     Ring,    ///< plane through the vertex, least squares over its neighbours, weights 1 / distance^2
     Octant,  ///< quadric through the vertex, least squares over the nearest two vertices of each octant,
              ///< mixed with Ring's plane by as much as it explains these vertices no better
-    Sibson   ///< as Ring, with the vertex's natural-neighbour weights over distance^2
+    Sibson   ///< as Ring, with the vertex's natural-neighbour weights over distance^2, up to 256 neighbours
 };
 inline constexpr std::array kGradientMethods{std::pair{std::string_view("ring"), GradientMethod::Ring},
                                              std::pair{std::string_view("octant"), GradientMethod::Octant},

@@ -1,9 +1,13 @@
 #include "tinwright/surface/interpolation.hpp"
 
+#include <cmath>
+#include <cstdint>
 #include <stdexcept>
 
 #include <tbb/task_arena.h>
 
+#include "tinwright/geometry/decimal.hpp"
+#include "tinwright/geometry/error.hpp"
 #include "tinwright/geometry/threads.hpp"
 #include "tinwright/surface/clough_tocher.hpp"
 #include "tinwright/surface/linear.hpp"
@@ -47,6 +51,19 @@ std::unique_ptr<Interpolator> make_method(const Tin& tin, const SharpEdges& shar
     throw std::logic_error("unknown interpolation method");
 }
 
+/// Elevations beyond this, squared and multiplied by areas, are no doubles any more.
+constexpr double kLargestElevation = 1e100;
+
+void check_elevations(const Tin& tin) {
+    for (std::uint32_t v = 0; v < tin.vertex_count(); ++v) {
+        if (std::abs(tin.z[v]) > kLargestElevation) {
+            const Point3 p = tin.position({v});
+            throw InputError("the elevation " + decimal_text(p.z) + " at " + location_text({p.x, p.y}) +
+                             " is beyond 1e100, which only the methods linear and nearest can read");
+        }
+    }
+}
+
 }  // namespace
 
 bool is_bounded(InterpolationMethod method) {
@@ -63,6 +80,9 @@ void check_interpolation(const InterpolationOptions& options) {
 
 std::unique_ptr<Interpolator> make_interpolator(const Tin& tin, const SharpEdges& sharp,
                                                 const InterpolationOptions& options) {
+    if (options.method != InterpolationMethod::Linear && options.method != InterpolationMethod::Nearest) {
+        check_elevations(tin);
+    }
     std::unique_ptr<Interpolator> made;
     tbb::task_arena arena(count_threads(options.threads));
     arena.execute([&] { made = make_method(tin, sharp, options); });

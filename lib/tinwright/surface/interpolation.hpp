@@ -55,7 +55,8 @@ bool is_bounded(InterpolationMethod method);
 void check_interpolation(const InterpolationOptions& options);
 
 /// Prepares a surface over the terrain of `tin`, which must outlive it. Throws what `check_interpolation`
-/// does. Cost: as the method's header says. `sharp` need not outlive the call.
+/// does, and InputError for elevations beyond 1e100, which only linear and nearest can read. Cost: as the
+/// method's header says. `sharp` need not outlive the call.
 std::unique_ptr<Interpolator> make_interpolator(const Tin& tin, const SharpEdges& sharp,
                                                 const InterpolationOptions& options);
 

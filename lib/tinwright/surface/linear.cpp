@@ -4,6 +4,7 @@
 #include <array>
 
 #include "tinwright/geometry/constructions.hpp"
+#include "tinwright/mesh/mesh_walk.hpp"
 
 namespace tinwright {
 
@@ -61,10 +62,8 @@ void LinearReader::enter(FaceId face) {
         return;
     }
     face_ = face;
-    // The corner with the smallest id first, so that the plane does not depend on where the face starts.
     const auto& v = tin_.mesh.face(face).vertex;
-    unsigned first = v[1] < v[0] ? 1 : 0;
-    first = v[2] < v[first] ? 2 : first;
+    const unsigned first = smallest_corner(tin_.mesh, face);
     corner_ = {first, next_corner(first), previous_corner(first)};
     for (unsigned i = 0; i < 3; ++i) {
         key_[i] = lattice_.scaled(tin_.key(v[corner_[i]]));

@@ -107,7 +107,7 @@ NeighborPlace settle(const TriangleMesh& mesh, const SharpEdges& sharp, FaceId f
             return {NeighborPlace::Kind::Edge, half_edge(f, i)};
         }
     }
-    return {NeighborPlace::Kind::Face, half_edge(f, 0)};
+    return {NeighborPlace::Kind::Face, half_edge(f, smallest_corner(mesh, f))};
 }
 
 /// From a face to the one whose closure holds the place, through no border; one whose edges bar the way gives

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "tinwright/geometry/predicates_internal.hpp"
+#include "tinwright/mesh/mesh_walk.hpp"
 #include "tinwright/mesh/tin.hpp"
 #include "tinwright/surface/face_circles.hpp"
 #include "tinwright/surface/sharp_edges.hpp"
@@ -52,9 +53,10 @@ class NeighborMesh {
 
     /// `place`: of the TIN given. O(1) for a TIN used as it is.
     [[nodiscard]] NeighborPlace find(const SurfacePlace& place) const {
-        return !copy_ && is_clearly_inside(place)
-                   ? NeighborPlace{NeighborPlace::Kind::Face, half_edge(place.face, 0)}
-                   : find_exactly(place);
+        if (copy_ || !is_clearly_inside(place)) {
+            return find_exactly(place);
+        }
+        return {NeighborPlace::Kind::Face, half_edge(place.face, smallest_corner(tin_.mesh, place.face))};
     }
 
   private:

@@ -15,6 +15,7 @@
 #include <tbb/parallel_for.h>
 
 #include "tinwright/mesh/border.hpp"
+#include "tinwright/mesh/mesh_walk.hpp"
 #include "tinwright/surface/band_index.hpp"
 #include "tinwright/surface/face_plane.hpp"
 #include "tinwright/surface/scan_lattice.hpp"
@@ -171,9 +172,7 @@ class Band {
 template <class Brush, class Value>
 std::int64_t Band::paint_face(FaceId f, Brush& brush, Value* values) const {
     const auto& v = scene_.tin.mesh.face(f).vertex;
-    // The corner with the smallest id first, so that the plane does not depend on where the face starts.
-    unsigned first = v[1] < v[0] ? 1 : 0;
-    first = v[2] < v[first] ? 2 : first;
+    const unsigned first = smallest_corner(scene_.tin.mesh, f);
     const std::array<ScanVertex, 3> corner{scene_.vertex(v[first]), scene_.vertex(v[next_corner(first)]),
                                            scene_.vertex(v[previous_corner(first)])};
     unsigned low = is_below(corner[1], corner[0]) ? 1 : 0;
