@@ -139,7 +139,8 @@ SampledCounts CommandSample::write_samples(const Queries& queries, const Surface
     driver = table->driver();
     std::vector<ProfileCurve> curves;
     run_with_threads(triangulation.threads, [&] {
-        const SurfaceSampler sampler(surface, interpolation, sample.slope_unit, triangulation.threads);
+        const SurfaceSampler sampler(surface, interpolation, sample.slope_unit, triangulation.threads,
+                                     console.progress().stage(0.7, 1));
         if (counts.are_lines) {
             sampler.sample_lines(queries, profile, *table, counts, sample.plot.empty() ? nullptr : &curves);
         } else {

@@ -1,5 +1,6 @@
 #include "surface_sampler.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
@@ -39,6 +40,9 @@ constexpr std::array<TableColumn, 14> kLineColumns{{{"source", Type::Whole},
                                                     {"face", Type::Whole},
                                                     {"inside", Type::Whole},
                                                     {"breakline", Type::Real}}};
+
+// Read together: enough to keep all threads busy, few enough to be asked now and then whether to stop.
+constexpr std::size_t kPointsAtATime = 16384;
 
 std::string kind_word(ProfilePoint::Kind kind) {
     switch (kind) {
@@ -115,13 +119,14 @@ std::span<const TableColumn> point_columns() { return kPointColumns; }
 std::span<const TableColumn> line_columns() { return kLineColumns; }
 
 SurfaceSampler::SurfaceSampler(const Surface& surface, const InterpolationChoice& interpolation,
-                               SlopeUnit slope_unit, int threads)
+                               SlopeUnit slope_unit, int threads, Progress progress)
     : surface_(surface),
       slope_unit_(slope_unit),
       interpolator_(interpolation.make(surface, threads)),
       face_numbers_(number_terrain(surface.tin.mesh)),
       breaklines_(surface.tin, breaklines_of(surface)),
-      lattice_(surface.tin) {}
+      lattice_(surface.tin),
+      progress_(std::move(progress)) {}
 
 void SurfaceSampler::append_reading(std::vector<TableValue>& row, Point2 position,
                                     const std::optional<SurfacePlace>& place,
@@ -142,17 +147,24 @@ void SurfaceSampler::append_reading(std::vector<TableValue>& row, Point2 positio
 
 void SurfaceSampler::sample_points(const Queries& queries, SampleTable& table, SampledCounts& counts) const {
     const SurfaceLocator locator(surface_.tin);
-    const std::vector<std::optional<SurfacePlace>> places = find_places(locator, queries.points);
-    const Readings readings(*interpolator_, list_places(places, [](const auto& place) { return place; }));
     std::vector<TableValue> row;
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        const QueryId& id = queries.point_ids[i];
-        row.assign({id.source, id.feature});
-        append_reading(row, queries.points[i], places[i], readings.at(i));
-        table.add(queries.points[i], row);
-        counts.outside += places[i] ? 0 : 1;
+    for (std::size_t first = 0; first < queries.points.size(); first += kPointsAtATime) {
+        report_progress(progress_, static_cast<double>(first) / static_cast<double>(queries.points.size()));
+        const std::span<const Point2> points =
+            std::span(queries.points)
+                .subspan(first)
+                .first(std::min(kPointsAtATime, queries.points.size() - first));
+        const std::vector<std::optional<SurfacePlace>> places = find_places(locator, points);
+        const Readings readings(*interpolator_, list_places(places, [](const auto& place) { return place; }));
+        for (std::size_t i = 0; i < places.size(); ++i) {
+            const QueryId& id = queries.point_ids[first + i];
+            row.assign({id.source, id.feature});
+            append_reading(row, points[i], places[i], readings.at(i));
+            table.add(points[i], row);
+            counts.outside += places[i] ? 0 : 1;
+        }
     }
-    counts.points += places.size();
+    counts.points += queries.points.size();
 }
 
 void SurfaceSampler::sample_lines(const Queries& queries, const ProfileOptions& options, SampleTable& table,
@@ -160,6 +172,7 @@ void SurfaceSampler::sample_lines(const Queries& queries, const ProfileOptions& 
     const ProfileCutter cutter(surface_.tin);
     std::vector<TableValue> row;
     for (std::size_t l = 0; l < queries.lines.size(); ++l) {
+        report_progress(progress_, static_cast<double>(l) / static_cast<double>(queries.lines.size()));
         const std::vector<ProfilePoint> points = cutter.cut(queries.lines[l], options);
         const Readings readings(*interpolator_,
                                 list_places(points, [](const auto& point) { return point.place; }));

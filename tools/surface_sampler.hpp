@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "tinwright/geometry/progress.hpp"
 #include "tinwright/surface/breakline_distance.hpp"
 #include "tinwright/surface/interpolator.hpp"
 #include "tinwright/surface/products.hpp"
@@ -41,9 +42,10 @@ struct SampledCounts {
 /// A surface, ready to be read.
 class SurfaceSampler {
   public:
-    /// `surface` must outlive it. Parallel inside the caller's task arena; `threads` for the interpolator.
+    /// `surface` must outlive it. Parallel inside the caller's task arena; `threads` for the interpolator;
+    /// `progress` of each call, which throws `Cancelled` when asked to stop.
     SurfaceSampler(const Surface& surface, const InterpolationChoice& interpolation, SlopeUnit slope_unit,
-                   int threads);
+                   int threads, Progress progress);
 
     /// A row for each point. Adds to `counts`.
     void sample_points(const Queries& queries, SampleTable& table, SampledCounts& counts) const;
@@ -61,6 +63,7 @@ class SurfaceSampler {
     std::vector<std::uint32_t> face_numbers_;
     BreaklineDistance breaklines_;
     QueryLattice lattice_;
+    Progress progress_;
 };
 
 }  // namespace tinwright::tools
