@@ -162,7 +162,7 @@ Outcome CommandGrid::run() {
         console.warn(warning);
     }
     if (written.cells_with_value == 0) {
-        console.warn("no cell has a value: the extent does not meet the surface");
+        console.warn("no cell has a value: no centre of a cell lies on the surface");
     }
 
     JobReport report;

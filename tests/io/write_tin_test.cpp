@@ -243,7 +243,7 @@ TEST_SUITE("io/write_tin") {
         CHECK(refusal("t.sql", "PGDUMP").starts_with("driver \"PGDUMP\" cannot read back what it writes"));
         CHECK(refusal("t.gpkg", "NoSuch") ==
               "GDAL has no driver \"NoSuch\"; `ogrinfo --formats` lists those it has");
-        CHECK(refusal("t.gpkg", "GTiff").starts_with("driver \"GTiff\" cannot write a TIN; use .gpkg"));
+        CHECK(refusal("t.gpkg", "GTiff").starts_with("driver \"GTiff\" writes no vector layers; use .gpkg"));
         CHECK(refusal("t.xyzzy", "") ==
               "no vector driver for \"t.xyzzy\": unknown extension .xyzzy; name one with --of, or use .gpkg, "
               ".shp, "

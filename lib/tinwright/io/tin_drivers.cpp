@@ -156,7 +156,7 @@ TinDriver find_tin_driver(const std::string& target, const std::string& driver) 
                              "; `ogrinfo --formats` lists those it has");
         }
         if (!is_vector_creator(found.gdal)) {
-            throw UsageError("driver " + quoted(driver) + " cannot write a TIN; " + kAlternatives);
+            throw UsageError("driver " + quoted(driver) + " writes no vector layers; " + kAlternatives);
         }
     } else {
         const std::string extension = lower_extension(target);

@@ -282,8 +282,14 @@ void check_options(const TinDriver& driver, const WriteTinOptions& options) {
 }
 
 std::vector<std::string> warnings_for(const Tin& tin, const Kept& kept, const TinDriver& driver,
-                                      const Crs& crs) {
+                                      const Crs& crs, const WriteTinOptions& options) {
     std::vector<std::string> warnings;
+    const bool has_smooth_line = std::any_of(options.lines.begin(), options.lines.end(),
+                                             [](const LineOrigin& line) { return !line.is_sharp; });
+    if (has_smooth_line && !driver.has_layers && options.geometry != WriteTinOptions::Geometry::Edges) {
+        warnings.push_back("driver " + quoted(driver.name) +
+                           " does not keep which lines are smooth: read back, all are sharp");
+    }
     if (driver.significant_digits > 0 && needs_more_digits(tin, driver.significant_digits)) {
         warnings.push_back("driver " + quoted(driver.name) + " writes coordinates with " +
                            std::to_string(driver.significant_digits) +
@@ -324,7 +330,7 @@ WrittenTin write_tin(const Tin& tin, const Crs& crs, const std::string& target,
     WrittenTin written = write_dataset(tin, crs, driver, output.path(), target, options);
     output.commit();
     report_progress(options.progress, 1);
-    written.warnings = warnings_for(tin, kept, driver, crs);
+    written.warnings = warnings_for(tin, kept, driver, crs, options);
     return written;
 }
 
