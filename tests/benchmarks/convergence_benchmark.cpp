@@ -54,10 +54,9 @@ double expected_order(tinwright::InterpolationMethod method) {
         case InterpolationMethod::Nearest:
             return 1;
         case InterpolationMethod::CloughTocher:
-        case InterpolationMethod::CloughTocherLimit:
             return 3;  // cubic, with gradients that are exact for quadrics
         default:
-            return 2;
+            return 2;  // that of limited surfaces too, as they are cut at peaks
     }
 }
 
