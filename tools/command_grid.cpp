@@ -109,12 +109,10 @@ io::WrittenGrid CommandGrid::write(const Surface& surface, const GridGeometry& g
     return written;
 }
 
-Outcome CommandGrid::run() {
-    Console console("grid", talk);
+void CommandGrid::check_targets(std::span<const std::string> targets,
+                                const io::WriteGridOptions& options) const {
     std::vector<io::Source> read = lines.plain_sources();
     read.insert(read.end(), sources.sources.begin(), sources.sources.end());
-    const std::vector<std::string> targets = products.targets(output.path);
-    io::WriteGridOptions options = write_options();
     for (const std::string& target : targets) {
         refuse_to_overwrite_sources(target, read);
         check_output_place(target, output.overwrite);
@@ -127,6 +125,13 @@ Outcome CommandGrid::run() {
         check_output_place(lines.conflicts, output.overwrite);
         check_conflict_target(lines.conflicts);
     }
+}
+
+Outcome CommandGrid::run() {
+    Console console("grid", talk);
+    const std::vector<std::string> targets = products.targets(output.path);
+    io::WriteGridOptions options = write_options();
+    check_targets(targets, options);
     io::Crs like_crs;
     std::optional<GridGeometry> like;
     if (!raster.like.empty()) {

@@ -106,7 +106,7 @@ std::string ProductOptions::canonical() const {
         const Product product = options.products[i];
         if (product != Product::GradientY) {
             text += (i == 0 ? "" : ",") +
-                    (product == Product::GradientX ? "gradient" : choice_name(product, kProducts));
+                    std::string(product == Product::GradientX ? "gradient" : product_name(product));
         }
     }
     const GriddingOptions usual;
@@ -125,7 +125,7 @@ std::string ProductOptions::canonical() const {
 std::vector<std::string> ProductOptions::names() const {
     std::vector<std::string> texts;
     for (const Product product : options.products) {
-        texts.push_back(choice_name(product, kProducts));
+        texts.emplace_back(product_name(product));
     }
     return texts;
 }

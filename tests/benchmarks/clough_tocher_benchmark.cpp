@@ -167,7 +167,8 @@ void run_clough_tocher(const Settings& settings) {
     const std::vector<Measured> results = measure_in_turn(contenders, settings.rounds);
     const std::string job = "10^6 sites to 4000 x 4000 cells, triangulation included";
     const double ours = results[0].cpu_seconds;
-    table.add(job + ": one thread", in_seconds(ours), python ? in_seconds(results[2].cpu_seconds) : "not installed",
+    table.add(job + ": one thread", in_seconds(ours),
+              python ? in_seconds(results[2].cpu_seconds) : "not installed",
               python ? std::optional(results[2].cpu_seconds / ours) : std::nullopt, std::nullopt, "x");
     if (python) {
         table.add(job + ": two threads, by the clock", in_seconds(results[1].wall_seconds),

@@ -45,15 +45,6 @@ class Stopwatch {
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-std::string product_name(Product product) {
-    for (const auto& [name, candidate] : kProducts) {
-        if (candidate == product) {
-            return std::string(name);
-        }
-    }
-    return {};
-}
-
 /// Deletes a file at the end, however that comes.
 class ScratchFile {
   public:
@@ -107,7 +98,7 @@ class GridWriter {
         report_.data_type = driver_.type_name();
         report_.nodata = values_.nodata();
         for (const Product product : options.gridding.products) {
-            report_.bands.push_back(product_name(product));
+            report_.bands.emplace_back(product_name(product));
         }
     }
 

@@ -177,6 +177,13 @@ std::int64_t SurfaceGridder::State::fill(std::int64_t band, std::span<const std:
     return covered;
 }
 
+std::string_view product_name(Product product) {
+    const auto* const found = std::find_if(kProducts.begin(), kProducts.end(),
+                                           [&](const auto& entry) { return entry.second == product; });
+    assert(found != kProducts.end());
+    return found->first;
+}
+
 bool is_from_gradient(Product product) {
     return product != Product::Elevation && product != Product::NearestDistance &&
            product != Product::FaceNumber;

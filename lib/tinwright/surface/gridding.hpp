@@ -42,6 +42,9 @@ inline constexpr auto kProducts = std::to_array<std::pair<std::string_view, Prod
 /// Whether a product is made from the surface's gradient.
 bool is_from_gradient(Product product);
 
+/// The product's name in `kProducts`.
+std::string_view product_name(Product product);
+
 struct GriddingOptions {
     std::vector<Product> products{Product::Elevation};
     SlopeUnit slope_unit = SlopeUnit::Degree;
