@@ -158,7 +158,7 @@ void compare(const std::vector<Point3>& samples) {
         "greatest eccentricity | RMSE | to Delaunay | proven "
         "|\n|---|---|---|---|---|---|---|---|---|---|---|---|\n");
     print_row("Delaunay", delaunay.tin, held_out, delaunay_rmse);
-    for (const Criterion criterion : tinwright::kCriteria) {
+    for (const Criterion criterion : tinwright::kInsertionCriteria) {
         const std::string name(criterion_traits(criterion).name);
         Tin flipped = delaunay.tin;
         tinwright::flip_edges(flipped, criterion);

@@ -14,7 +14,7 @@
 
 #include "tinwright/delaunay/delaunay.hpp"
 #include "tinwright/delaunay/sample_vertices.hpp"
-#include "tinwright/optimal/edge_insertion.hpp"
+#include "tinwright/optimal/optimize.hpp"
 #include "tinwright/optimal/triangulate.hpp"
 
 #include "benchmarks/benchmarks.hpp"
@@ -167,7 +167,7 @@ void run_criteria_growth(const Settings& settings) {
     GrowthTable table("CPU seconds, scope vector", counts, at_most(1.15));
     std::vector<Growth> curves;
     for (const PointSet& set : sets) {
-        for (const Criterion criterion : tinwright::kCriteria) {
+        for (const Criterion criterion : tinwright::kInsertionCriteria) {
             const std::string name = name_of(criterion) + ", " + set.name;
             curves.push_back(measure_growth(name, set, counts, criterion, kVector, settings.rounds));
             table.add(curves.back());
@@ -193,7 +193,7 @@ void run_criteria_worst(const Settings& settings) {
     for (const Hard& hard : sets) {
         const std::vector<std::size_t> counts =
             sizes(settings, {hard.largest / 8, hard.largest / 4, hard.largest / 2, hard.largest});
-        for (const Criterion criterion : tinwright::kCriteria) {
+        for (const Criterion criterion : tinwright::kInsertionCriteria) {
             table.add(measure_growth(hard.set.name + ": " + name_of(criterion), hard.set, counts, criterion,
                                      kVector, settings.rounds));
         }

@@ -118,15 +118,15 @@ void for_each_difference(std::uint64_t seed, Visitor visit) {
 
 TEST_SUITE("criteria/insertion_conditions") {
     TEST_CASE("what does not break a face at its anchor leaves a worse one, shared faces not counted") {
-        std::array<int, kCriteria.size()> checked{};
-        std::array<int, kCriteria.size()> weak_only{};
+        std::array<int, kInsertionCriteria.size()> checked{};
+        std::array<int, kInsertionCriteria.size()> weak_only{};
         for (int seed = 0; seed < cases(400); ++seed) {
             CAPTURE(seed);
             const auto check = [&checked, &weak_only](const Sites& sites, const Tin& tin,
                                                       const Triangulation& t, const Triangulation& of_a,
                                                       const Triangulation& of_t, const Triple& face) {
-                for (std::size_t i = 0; i < kCriteria.size(); ++i) {
-                    const Criterion criterion = kCriteria[i];
+                for (std::size_t i = 0; i < kInsertionCriteria.size(); ++i) {
+                    const Criterion criterion = kInsertionCriteria[i];
                     const unsigned anchors = anchors_of(tin, criterion, sites, face);
                     const long double of_face = badness(sites, criterion, face);
                     for (unsigned corner = 0; corner < 3; ++corner) {
@@ -144,9 +144,10 @@ TEST_SUITE("criteria/insertion_conditions") {
             };
             for_each_difference(static_cast<std::uint64_t>(seed), check);
         }
-        for (std::size_t i = 0; i < kCriteria.size(); ++i) {
+        for (std::size_t i = 0; i < kInsertionCriteria.size(); ++i) {
             CHECK(checked[i] > cases(400));
-            const bool is_weak = criterion_traits(kCriteria[i]).condition == InsertionCondition::Weak;
+            const bool is_weak =
+                criterion_traits(kInsertionCriteria[i]).condition == InsertionCondition::Weak;
             CHECK((weak_only[i] > 0) == is_weak);  // as Figures 4.4 and 4.5 of the thesis show
         }
     }
@@ -158,7 +159,7 @@ TEST_SUITE("criteria/insertion_conditions") {
             const auto check = [&checked](const Sites& sites, const Tin& tin, const Triangulation& /*t*/,
                                           const Triangulation& of_a, const Triangulation& of_t,
                                           const Triple& face) {
-                for (const Criterion criterion : kCriteria) {
+                for (const Criterion criterion : kInsertionCriteria) {
                     const long double of_face = badness(sites, criterion, face);
                     if (anchors_of(tin, criterion, sites, face) == 0 &&
                         worst(sites, criterion, of_a) <= of_face) {

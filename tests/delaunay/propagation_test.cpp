@@ -17,7 +17,7 @@
 #include "tinwright/delaunay/conforming_delaunay.hpp"
 #include "tinwright/delaunay/constrained_delaunay.hpp"
 #include "tinwright/delaunay/constrained_tin.hpp"
-#include "tinwright/delaunay/minimum_spanning_tree.hpp"
+#include "tinwright/delaunay/proximity_graphs.hpp"
 #include "tinwright/geometry/error.hpp"
 
 #include "support/cases.hpp"
@@ -262,7 +262,7 @@ TEST_SUITE("delaunay/propagation") {
                 graph.keys.push_back({random.key(1000), random.key(1000)});
             }
             const Tin plain = delaunay_tin(graph.keys);
-            for (const TreeEdge& edge : make_minimum_spanning_tree(plain.mesh, plain.keys)) {
+            for (const GraphEdge& edge : make_minimum_spanning_tree(plain.mesh, plain.keys)) {
                 graph.edges.emplace_back(plain.key(edge.a), plain.key(edge.b));
             }
             Tin tin = tin_of(graph);

@@ -145,7 +145,7 @@ TEST_SUITE("optimal/certificate") {
             constrain_at_random(random, tin, static_cast<int>(random.integer(0, 2)));
             make_voids_at_random(random, tin, static_cast<int>(random.integer(0, 1)));
             CAPTURE(describe(tin));
-            for (const Criterion criterion : kCriteria) {
+            for (const Criterion criterion : kInsertionCriteria) {
                 CAPTURE(name_of(criterion));
                 const bool is_best = are_close(badnesses_of(tin, criterion, Faces::All),
                                                oracle::best_badnesses(sites_of(tin), criterion));
@@ -166,7 +166,7 @@ TEST_SUITE("optimal/certificate") {
     }
 
     TEST_CASE("no edge improves what edge insertion returns") {
-        for (const Criterion criterion : kCriteria) {
+        for (const Criterion criterion : kInsertionCriteria) {
             CAPTURE(name_of(criterion));
             for (int seed = 0; seed < cases(24); ++seed) {
                 CAPTURE(seed);
@@ -249,7 +249,7 @@ TEST_SUITE("optimal/certificate") {
 
     TEST_CASE("faces without an anchor are counted and not tried") {
         Tin grid = delaunay_tin(grid_keys(7, 5));
-        for (const Criterion criterion : kCriteria) {  // right angles only, and level
+        for (const Criterion criterion : kInsertionCriteria) {  // right angles only, and level
             CAPTURE(name_of(criterion));
             const Certificate certificate = certify_all(grid, criterion);
             CHECK(certificate.faces == 48);

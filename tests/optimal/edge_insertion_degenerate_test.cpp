@@ -68,7 +68,7 @@ TEST_SUITE("optimal/edge_insertion_degenerate") {
                     continue;
                 }
                 CAPTURE(describe(start));
-                for (const Criterion criterion : kCriteria) {
+                for (const Criterion criterion : kInsertionCriteria) {
                     CAPTURE(name_of(criterion));
                     const long double worst = oracle::best_badnesses(sites_of(start), criterion).front();
                     for (const Scope scope : {kVectorScope, kMaxScope}) {
@@ -97,7 +97,7 @@ TEST_SUITE("optimal/edge_insertion_degenerate") {
                 if (start.mesh.count_terrain() == 0) {
                     continue;
                 }
-                for (const Criterion criterion : kCriteria) {
+                for (const Criterion criterion : kInsertionCriteria) {
                     CAPTURE(name_of(criterion));
                     for (const Scope scope : {kVectorScope, kMaxScope, Scope{Scope::Kind::Top, 5.0}}) {
                         Tin tin = start;

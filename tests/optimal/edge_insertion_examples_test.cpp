@@ -213,7 +213,7 @@ TEST_SUITE("optimal/edge_insertion_examples") {
                 Random random(static_cast<std::uint64_t>(seed));
                 Tin start = tin_of_sites(polygon);
                 flip_at_random(random, start, 10 * seed);
-                for (const Criterion criterion : kCriteria) {
+                for (const Criterion criterion : kInsertionCriteria) {
                     CAPTURE(name_of(criterion));
                     Tin tin = start;
                     optimize_to(kVectorScope, criterion, tin);

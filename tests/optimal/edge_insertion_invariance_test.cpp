@@ -156,7 +156,7 @@ TEST_SUITE("optimal/edge_insertion_invariance") {
                 const std::vector<Point3>& samples = set.second;
                 Random random(static_cast<std::uint64_t>(seed));
                 const auto other = shuffled(random, samples);
-                for (const Criterion criterion : kCriteria) {
+                for (const Criterion criterion : kInsertionCriteria) {
                     CAPTURE(name_of(criterion));
                     for (const Scope scope : {kVectorScope, kMaxScope, Scope{}}) {
                         CAPTURE(static_cast<int>(scope.kind));
@@ -175,7 +175,7 @@ TEST_SUITE("optimal/edge_insertion_invariance") {
         for (int seed = 0; seed < cases(10); ++seed) {
             CAPTURE(seed);
             const std::vector<Point3> samples = binary_samples(static_cast<std::uint64_t>(seed), 300);
-            for (const Criterion criterion : kCriteria) {
+            for (const Criterion criterion : kInsertionCriteria) {
                 CAPTURE(name_of(criterion));
                 const auto expected =
                     reports_of(triangulate_to(kVectorScope, criterion, samples).tin, criterion);

@@ -70,7 +70,7 @@ TEST_SUITE("optimal/edge_insertion_local") {
             for (int seed = 0; seed < cases(12); ++seed) {
                 CAPTURE(seed);
                 const Tin start = any_tin(family, static_cast<std::uint64_t>(seed), seed % 5 == 4 ? 200 : 40);
-                for (const Criterion criterion : kCriteria) {
+                for (const Criterion criterion : kInsertionCriteria) {
                     CAPTURE(name_of(criterion));
                     check_scopes({kVectorScope, kTopScope, kMaxScope}, start, criterion);
                 }
@@ -88,7 +88,7 @@ TEST_SUITE("optimal/edge_insertion_local") {
                     continue;
                 }
                 // Scope max ends at the first of the worst faces that cannot be improved: not looked at here.
-                for (const Criterion criterion : kCriteria) {
+                for (const Criterion criterion : kInsertionCriteria) {
                     CAPTURE(name_of(criterion));
                     if (criterion == Criterion::Slope && is_flipped(seed)) {
                         continue;  // coplanar faces that share a slope may be stuck, as Lemma 4.6 says
@@ -100,7 +100,7 @@ TEST_SUITE("optimal/edge_insertion_local") {
     }
 
     TEST_CASE("the search does find what improves a Delaunay TIN") {
-        for (const Criterion criterion : kCriteria) {
+        for (const Criterion criterion : kInsertionCriteria) {
             CAPTURE(name_of(criterion));
             int improvable = 0;
             for (int seed = 0; seed < cases(20); ++seed) {

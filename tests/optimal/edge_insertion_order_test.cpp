@@ -33,7 +33,7 @@ TEST_SUITE("optimal/edge_insertion_order") {
                 Tin start = family.make(random, 800);
                 constrain_at_random(random, start, seed % 2 == 0 ? 0 : 80);
                 make_voids_at_random(random, start, seed % 2 == 0 ? 0 : 20);
-                for (const Criterion criterion : kCriteria) {
+                for (const Criterion criterion : kInsertionCriteria) {
                     CAPTURE(name_of(criterion));
                     Tin swept = start;
                     Tin descended = start;
@@ -58,7 +58,7 @@ TEST_SUITE("optimal/edge_insertion_order") {
                 const Tin start = family.make(random, 800);
                 Tin flipped = start;
                 flip_at_random(random, flipped, 20000);
-                for (const Criterion criterion : kCriteria) {
+                for (const Criterion criterion : kInsertionCriteria) {
                     CAPTURE(name_of(criterion));
                     Tin tin = start;
                     Tin other = flipped;
@@ -84,7 +84,7 @@ TEST_SUITE("optimal/edge_insertion_order") {
             if (seed % 2 == 1) {
                 flip_at_random(random, start, 1500);
             }
-            for (const Criterion criterion : kCriteria) {
+            for (const Criterion criterion : kInsertionCriteria) {
                 CAPTURE(name_of(criterion));
                 Tin tin = start;
                 optimize_to(kVectorScope, criterion, tin);

@@ -79,7 +79,7 @@ Tin fractal_terrain(std::uint64_t seed, std::size_t count) {
 
 TEST_SUITE("optimal/edge_insertion_stopping") {
     TEST_CASE("without time, or told to stop at once, the TIN stays as it is and nothing is proven") {
-        for (const Criterion criterion : kCriteria) {
+        for (const Criterion criterion : kInsertionCriteria) {
             CAPTURE(name_of(criterion));
             Random random(1);
             const Tin start = general_families()[0].make(random, 100);
@@ -104,7 +104,7 @@ TEST_SUITE("optimal/edge_insertion_stopping") {
     }
 
     TEST_CASE("stopped anywhere on the way the TIN is sound and no worse; going on ends at the optimum") {
-        for (const Criterion criterion : kCriteria) {
+        for (const Criterion criterion : kInsertionCriteria) {
             CAPTURE(name_of(criterion));
             for (const Scope scope : {kVectorScope, Scope{Scope::Kind::Top, 30}}) {
                 CAPTURE(static_cast<int>(scope.kind));
@@ -137,7 +137,7 @@ TEST_SUITE("optimal/edge_insertion_stopping") {
 
     TEST_CASE("a large TIN out of time is sound and no worse") {
         const Tin start = fractal_terrain(5, 20000);
-        for (const Criterion criterion : kCriteria) {
+        for (const Criterion criterion : kInsertionCriteria) {
             CAPTURE(name_of(criterion));
             for (const double seconds : {1e-4, 1e-3, 5e-3}) {
                 CAPTURE(seconds);
@@ -154,7 +154,7 @@ TEST_SUITE("optimal/edge_insertion_stopping") {
     TEST_CASE(
         "50 000 samples of a fractal terrain: every criterion and scope passes the audits, and is proven") {
         const Tin start = fractal_terrain(7, 50000);
-        for (const Criterion criterion : kCriteria) {
+        for (const Criterion criterion : kInsertionCriteria) {
             CAPTURE(name_of(criterion));
             double worst = 0;
             for (const Scope scope : {kVectorScope, kMaxScope, Scope{Scope::Kind::Top, 0.5}}) {

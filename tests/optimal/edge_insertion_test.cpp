@@ -1,10 +1,10 @@
-#include "tinwright/optimal/edge_insertion.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <string>
 
 #include <doctest/doctest.h>
+
+#include "tinwright/optimal/optimize.hpp"
 
 #include "support/cases.hpp"
 #include "support/optimizing.hpp"
@@ -115,7 +115,7 @@ TEST_SUITE("optimal/edge_insertion") {
     }
 
     TEST_CASE("scope max: the worst measure is the least possible") {
-        for (const Criterion criterion : kCriteria) {
+        for (const Criterion criterion : kInsertionCriteria) {
             CAPTURE(name_of(criterion));
             for (int seed = 0; seed < cases(3000); ++seed) {
                 CAPTURE(seed);
@@ -132,7 +132,7 @@ TEST_SUITE("optimal/edge_insertion") {
     }
 
     TEST_CASE("scopes top and above: down to the stop the faces are those of the optimal vector") {
-        for (const Criterion criterion : kCriteria) {
+        for (const Criterion criterion : kInsertionCriteria) {
             CAPTURE(name_of(criterion));
             for (int seed = 0; seed < cases(3000); ++seed) {
                 CAPTURE(seed);
@@ -171,7 +171,7 @@ TEST_SUITE("optimal/edge_insertion") {
     }
 
     TEST_CASE("a TIN without a face above the stop stays as it is") {
-        for (const Criterion criterion : kCriteria) {
+        for (const Criterion criterion : kInsertionCriteria) {
             CAPTURE(name_of(criterion));
             for (int seed = 0; seed < cases(200); ++seed) {
                 CAPTURE(seed);

@@ -111,7 +111,7 @@ TEST_SUITE("optimal/triangulation_oracle") {
             for (std::int64_t i = random.integer(0, 2); i > 0; --i) {
                 constrain_one(random, sites);
             }
-            for (const Criterion criterion : kCriteria) {
+            for (const Criterion criterion : kInsertionCriteria) {
                 CAPTURE(criterion_traits(criterion).name);
                 std::vector<long double> best;
                 bool is_first = true;

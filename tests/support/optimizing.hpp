@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "tinwright/optimal/edge_insertion.hpp"
+#include "tinwright/optimal/optimize.hpp"
 
 /// Short ways to optimised TINs for tests.
 namespace tinwright_tests {

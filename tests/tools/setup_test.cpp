@@ -157,7 +157,7 @@ TEST_SUITE("tools/setup") {
         CHECK_FALSE(tin.triangulation.optimize.has_value());
         CHECK(tin.triangulation.criterion_name() == "delaunay");
         CHECK(tin.triangulation.canonical() == "--criterion delaunay --domain convex --duplicates error");
-        for (const Criterion criterion : kCriteria) {
+        for (const Criterion criterion : kInsertionCriteria) {
             const std::string name(criterion_traits(criterion).name);
             CAPTURE(name);
             CommandGrid grid;

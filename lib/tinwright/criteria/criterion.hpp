@@ -6,6 +6,7 @@
 #include <optional>
 #include <string_view>
 
+#include "tinwright/geometry/norm.hpp"
 #include "tinwright/mesh/tin.hpp"
 
 /// What makes one triangulation better than another. A criterion has a measure, a number for one face, and
@@ -18,9 +19,13 @@ enum class Criterion : std::uint8_t {
     Height,        ///< greatest least height
     Slope,         ///< smallest steepest slope
     Eccentricity,  ///< smallest greatest distance from a face to its circumcentre
+    Length,        ///< smallest longest edge
 };
 inline constexpr std::array kCriteria{Criterion::Angle, Criterion::Height, Criterion::Slope,
-                                      Criterion::Eccentricity};
+                                      Criterion::Eccentricity, Criterion::Length};
+/// Those that edge insertion makes optimal.
+inline constexpr std::array kInsertionCriteria{Criterion::Angle, Criterion::Height, Criterion::Slope,
+                                               Criterion::Eccentricity};
 
 /// What the numbers of a criterion count.
 enum class MeasureUnit : std::uint8_t {
@@ -30,8 +35,8 @@ enum class MeasureUnit : std::uint8_t {
 };
 
 /// Which of the two sufficient conditions for edge insertion the measure is proven to meet
-/// [tan1993, Sec. 3.2]; `Strong` implies `Weak`.
-enum class InsertionCondition : std::uint8_t { Weak, Strong };
+/// [tan1993, Sec. 3.2]; `Strong` implies `Weak`. Without either it ends in local optima.
+enum class InsertionCondition : std::uint8_t { None, Weak, Strong };
 
 struct CriterionTraits {
     std::string_view name;     ///< as in `--criterion`: "slope"
@@ -51,8 +56,8 @@ inline constexpr double kTieMargin = 1.0 / (1ULL << 34U);
 
 /// The measure of a face that is not a ghost, in the criterion's unit. Relative error below 2^-44; of
 /// slopes, a few units in the last place of the greatest rise over the least height. The same bits
-/// whatever the order of the face's corners.
-double measure_face(const Tin& tin, FaceId face, Criterion criterion);
+/// whatever the order of the face's corners. `norm`: for length; the others are not affected.
+double measure_face(const Tin& tin, FaceId face, Criterion criterion, Norm norm = {});
 
 /// The worst measures of a TIN, in the criterion's unit.
 struct WorstMeasures {
@@ -61,7 +66,7 @@ struct WorstMeasures {
 };
 
 /// O(n). `tin` has at least one terrain face.
-WorstMeasures find_worst(const Tin& tin, Criterion criterion);
+WorstMeasures find_worst(const Tin& tin, Criterion criterion, Norm norm = {});
 
 }  // namespace tinwright
 

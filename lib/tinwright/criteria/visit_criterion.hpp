@@ -8,6 +8,7 @@
 #include "tinwright/criteria/criterion.hpp"
 #include "tinwright/criteria/eccentricity.hpp"
 #include "tinwright/criteria/height.hpp"
+#include "tinwright/criteria/length.hpp"
 #include "tinwright/criteria/slope.hpp"
 
 /// The list of all criteria, and the way from a name to the code made for it. A new criterion is a header of
@@ -40,12 +41,13 @@ concept WeakCriterion = FaceCriterion<C> &&
     { typename C::Cut(criterion, v, v, v, x).cross(state, v, v) } -> std::same_as<bool>;
 };
 
-static_assert(FaceCriterion<AngleCriterion> && FaceCriterion<HeightCriterion>);
+static_assert(FaceCriterion<AngleCriterion> && FaceCriterion<HeightCriterion> &&
+              FaceCriterion<LengthCriterion>);
 static_assert(WeakCriterion<SlopeCriterion> && WeakCriterion<EccentricityCriterion>);
 
-/// Calls `visitor` with the criterion's code, made for `tin`, which must outlive it.
+/// Calls `visitor` with the criterion's code, made for `tin`, which must outlive it; `norm` is for length.
 template <class Visitor>
-decltype(auto) visit_criterion(Criterion criterion, const Tin& tin, Visitor&& visitor) {
+decltype(auto) visit_criterion(Criterion criterion, const Tin& tin, Visitor&& visitor, Norm norm = {}) {
     switch (criterion) {
         case Criterion::Angle:
             return visitor(AngleCriterion(tin));
@@ -53,6 +55,8 @@ decltype(auto) visit_criterion(Criterion criterion, const Tin& tin, Visitor&& vi
             return visitor(HeightCriterion(tin));
         case Criterion::Eccentricity:
             return visitor(EccentricityCriterion(tin));
+        case Criterion::Length:
+            return visitor(LengthCriterion(tin, norm));
         case Criterion::Slope:
             break;
     }

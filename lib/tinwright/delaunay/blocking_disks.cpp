@@ -20,9 +20,9 @@ double cross(Offset a, Offset b) { return a.x * b.y - a.y * b.x; }
 // The vertices' neighbours in the tree, ascending.
 class Neighbors {
   public:
-    Neighbors(std::size_t count, std::span<const TreeEdge> tree)
+    Neighbors(std::size_t count, std::span<const GraphEdge> tree)
         : first_(count + 1), other_(2 * tree.size()) {
-        for (const TreeEdge& edge : tree) {
+        for (const GraphEdge& edge : tree) {
             ++first_[edge.a.value + 1];
             ++first_[edge.b.value + 1];
         }
@@ -30,7 +30,7 @@ class Neighbors {
             first_[v + 1] += first_[v];
         }
         std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
-        for (const TreeEdge& edge : tree) {
+        for (const GraphEdge& edge : tree) {
             other_[next[edge.a.value]++] = edge.b;
             other_[next[edge.b.value]++] = edge.a;
         }
@@ -49,7 +49,7 @@ class Neighbors {
 };
 
 // The disks of the tree's edges, in the order of the labels of their vertices j.
-std::vector<BlockingDisk> full_disks(std::span<const Key2> keys, std::span<const TreeEdge> tree) {
+std::vector<BlockingDisk> full_disks(std::span<const Key2> keys, std::span<const GraphEdge> tree) {
     const Neighbors neighbors(keys.size(), tree);
     std::vector<BlockingDisk> disks;
     disks.reserve(tree.size());
@@ -116,7 +116,7 @@ constexpr auto kNowhereApart = [](const KeyBox& /*box*/) { return false; };
 
 }  // namespace
 
-BlockingDisks::BlockingDisks(std::span<const Key2> keys, std::span<const TreeEdge> tree)
+BlockingDisks::BlockingDisks(std::span<const Key2> keys, std::span<const GraphEdge> tree)
     : BlockingDisks(keys, full_disks(keys, tree)) {}
 
 BlockingDisks::BlockingDisks(std::span<const Key2> keys, std::vector<BlockingDisk> disks)

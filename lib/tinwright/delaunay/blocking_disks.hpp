@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "tinwright/delaunay/minimum_spanning_tree.hpp"
+#include "tinwright/delaunay/proximity_graphs.hpp"
 #include "tinwright/geometry/lattice.hpp"
 #include "tinwright/mesh/box_tree.hpp"
 
@@ -48,7 +48,7 @@ class BlockingDisks {
   public:
     /// `keys`: n distinct, n >= 2. `tree`: their minimum spanning tree, whose edges' own disks hold no
     /// vertex. Vertices are labelled breadth first from vertex 0, neighbours ascending. O(n log n).
-    BlockingDisks(std::span<const Key2> keys, std::span<const TreeEdge> tree);
+    BlockingDisks(std::span<const Key2> keys, std::span<const GraphEdge> tree);
 
     [[nodiscard]] const std::vector<BlockingDisk>& disks() const { return disks_; }
     /// A disk whose circle goes through the vertex.

@@ -12,7 +12,7 @@
 #include "tinwright/delaunay/circle_points.hpp"
 #include "tinwright/delaunay/delaunay.hpp"
 #include "tinwright/delaunay/lines_in_disks.hpp"
-#include "tinwright/delaunay/minimum_spanning_tree.hpp"
+#include "tinwright/delaunay/proximity_graphs.hpp"
 #include "tinwright/delaunay/tree_of_regions.hpp"
 #include "tinwright/geometry/constructions.hpp"
 #include "tinwright/geometry/predicates.hpp"

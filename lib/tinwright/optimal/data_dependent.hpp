@@ -10,7 +10,7 @@
 
 #include "tinwright/geometry/progress.hpp"
 #include "tinwright/mesh/tin.hpp"
-#include "tinwright/optimal/edge_insertion.hpp"
+#include "tinwright/optimal/optimize.hpp"
 
 /// Triangulations that let the elevations choose the edges: as little crease as possible, all together
 /// [dyn1990]. What they are and what they are worth: docs/criteria.md.

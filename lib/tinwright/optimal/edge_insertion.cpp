@@ -487,28 +487,19 @@ OptimizeReport Engine<C>::run(const Scope& scope) {
     return report_;
 }
 
-/// Squares of slopes must not overflow.
-void check_elevations(const Tin& tin) {
-    constexpr double kGreatest = 1e100;
-    const auto extreme =
-        std::find_if(tin.z.begin(), tin.z.end(), [](double z) { return !(std::abs(z) <= kGreatest); });
-    if (extreme == tin.z.end()) {
-        return;
-    }
-    const auto vertex = static_cast<std::size_t>(extreme - tin.z.begin());
-    throw InputError("the elevation " + decimal_text(*extreme) + " at " +
-                         location_text(tin.lattice.position(tin.keys[vertex])) +
-                         " is too great to compare faces by; remove the sample, or stay within 1e100",
-                     {tin.sample[vertex]});
-}
-
 }  // namespace
 
-OptimizeReport optimize(Tin& tin, const OptimizeOptions& options) {
-    check_elevations(tin);
-    return visit_criterion(options.criterion, tin, [&](const FaceCriterion auto& criterion) {
-        return Engine(tin, criterion, options).run(options.scope);
-    });
+OptimizeReport improve_by_insertions(Tin& tin, const OptimizeOptions& options) {
+    return visit_criterion(
+        options.criterion, tin,
+        [&](const FaceCriterion auto& criterion) {
+            OptimizeReport report = Engine(tin, criterion, options).run(options.scope);
+            if (criterion.kTraits.condition == InsertionCondition::None) {
+                report.proof = Proof::None;
+            }
+            return report;
+        },
+        options.norm);
 }
 
 }  // namespace tinwright

@@ -14,7 +14,7 @@
 #include "tinwright/geometry/progress.hpp"
 #include "tinwright/mesh/tin.hpp"
 #include "tinwright/optimal/data_dependent.hpp"
-#include "tinwright/optimal/edge_insertion.hpp"
+#include "tinwright/optimal/optimize.hpp"
 
 /// The front door: samples, lines and options in, a TIN and a report out.
 namespace tinwright {

@@ -1,4 +1,4 @@
-#include "tinwright/delaunay/minimum_spanning_tree.hpp"
+#include "tinwright/delaunay/proximity_graphs.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -34,14 +34,14 @@ Weight weight(std::span<const Key2> keys, std::uint32_t a, std::uint32_t b) {
 }
 
 // Prim's method on the complete graph, O(n^2), in integers.
-std::vector<TreeEdge> prim(std::span<const Key2> keys) {
+std::vector<GraphEdge> prim(std::span<const Key2> keys) {
     std::vector<std::uint32_t> outside(keys.size() - 1);
     std::vector<Weight> best(keys.size());
     for (std::uint32_t v = 1; v < keys.size(); ++v) {
         outside[v - 1] = v;
         best[v] = weight(keys, 0, v);
     }
-    std::vector<TreeEdge> tree;
+    std::vector<GraphEdge> tree;
     while (!outside.empty()) {
         const auto next = std::min_element(outside.begin(), outside.end(),
                                            [&](auto u, auto v) { return best[u] < best[v]; });
@@ -52,7 +52,7 @@ std::vector<TreeEdge> prim(std::span<const Key2> keys) {
             best[v] = std::min(best[v], weight(keys, added, v));
         }
     }
-    std::sort(tree.begin(), tree.end(), [&](const TreeEdge& x, const TreeEdge& y) {
+    std::sort(tree.begin(), tree.end(), [&](const GraphEdge& x, const GraphEdge& y) {
         return weight(keys, x.a.value, x.b.value) < weight(keys, y.a.value, y.b.value);
     });
     return tree;
@@ -81,7 +81,7 @@ TEST_SUITE("delaunay/minimum_spanning_tree") {
                 Random random(static_cast<std::uint64_t>(seed) + 100);
                 const Tin tin = delaunay_tin(family.make(random, 40));
                 std::size_t inside = 0;
-                for (const TreeEdge& edge : make_minimum_spanning_tree(tin.mesh, tin.keys)) {
+                for (const GraphEdge& edge : make_minimum_spanning_tree(tin.mesh, tin.keys)) {
                     for (std::uint32_t v = 0; v < tin.vertex_count(); ++v) {
                         const bool is_third = v != edge.a.value && v != edge.b.value;
                         if (is_third &&
@@ -98,14 +98,14 @@ TEST_SUITE("delaunay/minimum_spanning_tree") {
     TEST_CASE("collinear vertices are joined in a row, two by their edge") {
         const Tin row = delaunay_tin({{9, 9}, {0, 0}, {3, 3}, {4, 4}});
         std::vector<std::pair<double, double>> joined;
-        for (const TreeEdge& edge : make_minimum_spanning_tree(row.mesh, row.keys)) {
+        for (const GraphEdge& edge : make_minimum_spanning_tree(row.mesh, row.keys)) {
             const double a = row.key(edge.a).x;
             const double b = row.key(edge.b).x;
             joined.emplace_back(std::min(a, b), std::max(a, b));
         }
         CHECK(joined == std::vector<std::pair<double, double>>{{3, 4}, {0, 3}, {4, 9}});
         const Tin pair = delaunay_tin({{5, 1}, {2, 7}});
-        CHECK(make_minimum_spanning_tree(pair.mesh, pair.keys) == std::vector<TreeEdge>{{{0}, {1}}});
+        CHECK(make_minimum_spanning_tree(pair.mesh, pair.keys) == std::vector<GraphEdge>{{{0}, {1}}});
     }
 
     TEST_CASE("on a square grid, where all lengths tie, the ends decide") {

@@ -1,4 +1,4 @@
-#include "tinwright/delaunay/minimum_spanning_tree.hpp"
+#include "tinwright/delaunay/proximity_graphs.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -16,7 +16,7 @@ namespace {
 
 struct Candidate {
     double squared_length;  // rounded once, so it orders as the exact one does, but for ties
-    TreeEdge edge;
+    GraphEdge edge;
 };
 
 // The sets of vertices that are connected so far.
@@ -66,7 +66,7 @@ std::vector<Candidate> delaunay_edges(const TriangleMesh& mesh, std::span<const 
 
 }  // namespace
 
-std::vector<TreeEdge> make_minimum_spanning_tree(const TriangleMesh& delaunay, std::span<const Key2> keys) {
+std::vector<GraphEdge> make_minimum_spanning_tree(const TriangleMesh& delaunay, std::span<const Key2> keys) {
     std::vector<Candidate> candidates = delaunay_edges(delaunay, keys);
     const auto key = [&](VertexId v) { return keys[v.value]; };
     tbb::parallel_sort(candidates.begin(), candidates.end(), [&](const Candidate& x, const Candidate& y) {
@@ -77,7 +77,7 @@ std::vector<TreeEdge> make_minimum_spanning_tree(const TriangleMesh& delaunay, s
         return order != 0 ? order < 0 : x.edge < y.edge;
     });
 
-    std::vector<TreeEdge> tree;
+    std::vector<GraphEdge> tree;
     tree.reserve(keys.size());
     Components components(keys.size());
     for (const Candidate& candidate : candidates) {

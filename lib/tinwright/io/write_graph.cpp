@@ -1,0 +1,1 @@
+#include "tinwright/io/write_graph.hpp"

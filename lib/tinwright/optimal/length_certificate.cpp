@@ -1,0 +1,1 @@
+#include "tinwright/optimal/length_certificate.hpp"

@@ -1,0 +1,1 @@
+#include "tinwright/delaunay/proximity_graphs.hpp"

@@ -1,0 +1,1 @@
+#include "tinwright/geometry/norm.hpp"

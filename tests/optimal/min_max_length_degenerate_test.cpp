@@ -1,0 +1,1 @@
+#include "tinwright/optimal/min_max_length.hpp"
