@@ -1,10 +1,8 @@
 #include "tinwright/optimal/edge_insertion.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdint>
-#include <functional>
 #include <limits>
 #include <queue>
 #include <utility>
@@ -14,12 +12,12 @@
 #include <tbb/parallel_for.h>
 
 #include "tinwright/criteria/visit_criterion.hpp"
-#include "tinwright/geometry/decimal.hpp"
 #include "tinwright/geometry/error.hpp"
 #include "tinwright/geometry/large_vector.hpp"
 #include "tinwright/mesh/border.hpp"
 #include "tinwright/mesh/mesh_edit.hpp"
 #include "tinwright/optimal/empty_triangle_search.hpp"
+#include "tinwright/optimal/stopwatch.hpp"
 #include "tinwright/optimal/wedge_search.hpp"
 
 namespace tinwright {
@@ -27,57 +25,6 @@ namespace tinwright {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-/// Asks now and then whether to stop: for time, or because the caller says so.
-class Stopwatch {
-  public:
-    explicit Stopwatch(const OptimizeOptions& options)
-        : start_(Clock::now()), budget_(options.budget_seconds), progress_(options.progress) {}
-
-    [[nodiscard]] double seconds() const {
-        return std::chrono::duration<double>(Clock::now() - start_).count();
-    }
-    [[nodiscard]] StoppedBy stopped_by() const { return stopped_by_; }
-    [[nodiscard]] bool has_stopped() const { return stopped_by_ != StoppedBy::Finished; }
-    /// What follows takes the progress from `begin` to `end`.
-    void set_stage(double begin, double end) {
-        begin_ = begin;
-        end_ = end;
-    }
-    /// Whether to stop; `done` of `all` is what the stage has come to, `work` the steps taken since the
-    /// start.
-    bool is_over(std::size_t done, std::size_t all, std::size_t work) {
-        // A clock is slow next to most tries.
-        constexpr unsigned kTriesBetween = 64;
-        constexpr std::size_t kWorkBetween = 1U << 16U;
-        if (stopped_by_ != StoppedBy::Finished) {
-            return true;
-        }
-        if (calls_++ % kTriesBetween == 0 || work - work_before_ > kWorkBetween) {
-            work_before_ = work;
-            if (budget_ && seconds() >= *budget_) {
-                stopped_by_ = StoppedBy::Budget;
-            } else if (progress_) {
-                const double part = static_cast<double>(std::min(done, all)) / static_cast<double>(all);
-                const bool goes_on = progress_(begin_ + (end_ - begin_) * part);
-                stopped_by_ = goes_on ? StoppedBy::Finished : StoppedBy::Interrupt;
-            }
-        }
-        return stopped_by_ != StoppedBy::Finished;
-    }
-
-  private:
-    using Clock = std::chrono::steady_clock;
-
-    Clock::time_point start_;
-    std::optional<double> budget_;
-    const Progress& progress_;
-    double begin_ = 0;
-    double end_ = 1;
-    unsigned calls_ = 0;
-    std::size_t work_before_ = 0;
-    StoppedBy stopped_by_ = StoppedBy::Finished;
-};
 
 /// The search for edges to insert that a criterion's condition calls for.
 template <FaceCriterion C>
@@ -169,7 +116,7 @@ class Engine {
     TriangleMesh& mesh_;
     std::size_t vertex_count_;
     const C& criterion_;
-    Stopwatch stopwatch_;
+    internal::Stopwatch stopwatch_;
     LargeVector<double> measures_;
     LargeVector<FailedTry> tries_;  ///< the last of each slot, if it stands
     std::vector<FaceId> changed_;   ///< new faces of the last sweep, some of them more than once

@@ -1,0 +1,64 @@
+#ifndef TINWRIGHT_OPTIMAL_EXPANDABLE_EDGE_HPP
+#define TINWRIGHT_OPTIMAL_EXPANDABLE_EDGE_HPP
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "tinwright/optimal/incomplete_polygon.hpp"
+#include "tinwright/optimal/wall_polygon.hpp"
+
+namespace tinwright::internal {
+
+/// Finds the edge that a complete polygon, all whose sides are empty towards its inside, is to be divided by
+/// [tan1993, Sec. 5.6].
+///
+/// A diagonal is a 2-edge if it is empty on neither side, and expandable if on each side it can be the base
+/// of a face beneath the face's other two edges. The shortest expandable 2-edge is the longest edge of a
+/// min-max length triangulation (2-Edge Lemma).
+class ExpandableEdgeSearch {
+  public:
+    struct Diagonal {
+        std::uint32_t low;  ///< positions of its ends
+        std::uint32_t high;
+    };
+
+    explicit ExpandableEdgeSearch(WallPolygon& polygon) : polygon_(polygon) {}
+
+    /// The shortest expandable 2-edge among those that come before the pair a b, which is no shorter than any
+    /// side; empty if there is none, or when stopped.
+    ///
+    /// Only lines of sight before a b are looked at. That leaves the result as it is: the faces at an
+    /// expandable edge lie in its lune, so their edges, which alone can make it pass the test of step 3, are
+    /// shorter than it is; and what passes with fewer lines passes with all. O(n^2) for n sides, less where
+    /// little is seen within that length; memory for the 2-edges before a b.
+    std::optional<Diagonal> find(VertexId a, VertexId b, const Poll& poll);
+
+    /// 2-edges that came into question, over all calls.
+    [[nodiscard]] std::size_t candidates() const { return candidates_; }
+
+  private:
+    /// What is known of a 2-edge at one end: among the lines of sight from there, the nearest on either side
+    /// of it that are empty towards it.
+    struct HalfKnown {
+        std::uint32_t low;
+        std::uint32_t high;
+        bool is_from_high;
+        std::uint32_t before;  ///< position it leads to, clockwise of the 2-edge
+        std::uint32_t behind;  ///< counter-clockwise
+    };
+
+    void note(std::uint32_t eye);
+    [[nodiscard]] bool is_crossed_on_both_sides(const HalfKnown& of_low, const HalfKnown& of_high) const;
+
+    WallPolygon& polygon_;
+    std::vector<WallPolygon::Sight> sights_;
+    std::vector<std::uint32_t> behind_;
+    std::vector<HalfKnown> known_;
+    std::size_t candidates_ = 0;
+};
+
+}  // namespace tinwright::internal
+
+#endif
