@@ -129,6 +129,7 @@ struct Exact {
     [[nodiscard]] Vector edge(std::size_t from, std::size_t to) const {
         return {position[to].x - position[from].x, position[to].y - position[from].y};
     }
+    /// Of length, the square.
     [[nodiscard]] cpp_rational measure(Criterion criterion) const {
         switch (criterion) {
             case Criterion::Angle:
@@ -137,6 +138,8 @@ struct Exact {
                 return longest / (area * area);
             case Criterion::Slope:
                 return dot(gradient, gradient);
+            case Criterion::Length:
+                return longest;
             case Criterion::Eccentricity:
                 break;
         }

@@ -9,6 +9,7 @@
 namespace tinwright_tests::oracle {
 
 using boost::multiprecision::cpp_int;
+using boost::multiprecision::cpp_rational;
 using tinwright::Key2;
 
 namespace {
@@ -56,6 +57,17 @@ int incircle_of_small(Key2 a, Key2 b, Key2 c, Key2 d) {
     return det > 0 ? 1 : det < 0 ? -1 : 0;
 }
 
+/// What is compared instead of lengths: |x|^p + |y|^p, or the greater of |x| and |y|.
+cpp_int power_of_length(tinwright::Norm norm, Key2 a, Key2 b) {
+    const cpp_int x = abs(cpp_int(big(b.x) - big(a.x)));
+    const cpp_int y = abs(cpp_int(big(b.y) - big(a.y)));
+    if (norm.is_maximum()) {
+        return std::max(x, y);
+    }
+    const auto p = static_cast<unsigned>(norm.power());
+    return pow(x, p) + pow(y, p);
+}
+
 }  // namespace
 
 int orient2d(Key2 a, Key2 b, Key2 c) { return cross(big(a), big(b), big(c)).sign(); }
@@ -77,6 +89,23 @@ int angle_sign(Key2 a, Key2 apex, Key2 b) {
     const BigPoint p = big(a);
     const BigPoint q = big(b);
     return cpp_int((p.x - o.x) * (q.x - o.x) + (p.y - o.y) * (q.y - o.y)).sign();
+}
+
+int compare_lengths(tinwright::Norm norm, Key2 a, Key2 b, Key2 c, Key2 d) {
+    return cpp_int(power_of_length(norm, a, b) - power_of_length(norm, c, d)).sign();
+}
+
+bool is_length(double length, double relative, tinwright::Norm norm, Key2 a, Key2 b) {
+    const auto power = [norm](const cpp_rational& value) {
+        cpp_rational product = 1;
+        for (int i = 0; i < (norm.is_maximum() ? 1 : norm.power()); ++i) {
+            product *= value;
+        }
+        return product;
+    };
+    const cpp_rational exact(power_of_length(norm, a, b));
+    return power(cpp_rational(length) * (1 - cpp_rational(relative))) <= exact &&
+           power(cpp_rational(length) * (1 + cpp_rational(relative))) >= exact;
 }
 
 int incircle_perturbed(Key2 a, Key2 b, Key2 c, Key2 d) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tinwright/geometry/lattice.hpp"
+#include "tinwright/geometry/norm.hpp"
 
 /// Slow and plain answers to compare with. They share no code with the library but its types.
 namespace tinwright_tests::oracle {
@@ -19,6 +20,11 @@ int incircle(tinwright::Key2 a, tinwright::Key2 b, tinwright::Key2 c, tinwright:
 /// Sign of |a b| - |c d|, and of the inner product of a - apex and b - apex.
 int compare_distances(tinwright::Key2 a, tinwright::Key2 b, tinwright::Key2 c, tinwright::Key2 d);
 int angle_sign(tinwright::Key2 a, tinwright::Key2 apex, tinwright::Key2 b);
+/// Sign of |a b| - |c d| in a norm.
+int compare_lengths(tinwright::Norm norm, tinwright::Key2 a, tinwright::Key2 b, tinwright::Key2 c,
+                    tinwright::Key2 d);
+/// Whether `length` is within `relative` of |a b|, relatively.
+bool is_length(double length, double relative, tinwright::Norm norm, tinwright::Key2 a, tinwright::Key2 b);
 
 /// `incircle` of points that are truly lifted off the paraboloid: by 2^-4000 times 1, 2^400, 2^800 and
 /// 2^1200 in lexicographic order. Any integer determinant of keys is far from both ends of that scale.

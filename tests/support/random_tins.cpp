@@ -266,12 +266,13 @@ oracle::Sites sites_of(const Tin& tin) {
     return sites;
 }
 
-std::vector<long double> badnesses_of(const Tin& tin, Criterion criterion, Faces which) {
+std::vector<long double> badnesses_of(const Tin& tin, Criterion criterion, Faces which, Norm norm) {
     std::vector<long double> vector;
     for (const FaceId f : faces_of(tin.mesh)) {
         if (which == Faces::All || tin.mesh.is_terrain(f)) {
             const auto& [a, b, c] = tin.mesh.face(f).vertex;
-            vector.push_back(oracle::badness(criterion, site_of(tin, a), site_of(tin, b), site_of(tin, c)));
+            vector.push_back(
+                oracle::badness(criterion, site_of(tin, a), site_of(tin, b), site_of(tin, c), norm));
         }
     }
     std::sort(vector.begin(), vector.end(), std::greater<>());
@@ -283,6 +284,7 @@ double report_of(const Tin& tin, Criterion criterion, long double badness) {
     switch (criterion) {
         case Criterion::Height:
         case Criterion::Eccentricity:
+        case Criterion::Length:
             return number * tin.lattice.quantum();
         case Criterion::Slope:
             return number / tin.lattice.quantum();
@@ -301,18 +303,21 @@ bool are_close(const std::vector<long double>& a, const std::vector<long double>
                       [](long double x, long double y) { return are_close(x, y); });
 }
 
-std::vector<double> measures_of(const Tin& tin, Criterion criterion) {
-    return visit_criterion(criterion, tin, [&tin](const FaceCriterion auto& code) {
-        std::vector<double> vector;
-        for (const FaceId f : faces_of(tin.mesh)) {
-            if (tin.mesh.is_terrain(f)) {
-                const auto& [a, b, c] = tin.mesh.face(f).vertex;
-                vector.push_back(code.measure(a, b, c));
+std::vector<double> measures_of(const Tin& tin, Criterion criterion, Norm norm) {
+    return visit_criterion(
+        criterion, tin,
+        [&tin](const FaceCriterion auto& code) {
+            std::vector<double> vector;
+            for (const FaceId f : faces_of(tin.mesh)) {
+                if (tin.mesh.is_terrain(f)) {
+                    const auto& [a, b, c] = tin.mesh.face(f).vertex;
+                    vector.push_back(code.measure(a, b, c));
+                }
             }
-        }
-        std::sort(vector.begin(), vector.end(), std::greater<>());
-        return vector;
-    });
+            std::sort(vector.begin(), vector.end(), std::greater<>());
+            return vector;
+        },
+        norm);
 }
 
 bool is_sound(const Tin& tin) { return check_mesh(tin.mesh).is_clean() && check_tin(tin).is_clean(); }

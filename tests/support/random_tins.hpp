@@ -45,9 +45,10 @@ void make_voids_at_random(Random& random, tinwright::Tin& tin, int count);
 /// The vertices; as constraints the constrained edges and those of faces that are not terrain.
 oracle::Sites sites_of(const tinwright::Tin& tin);
 oracle::Site site_of(const tinwright::Tin& tin, tinwright::VertexId v);
-/// Sorted badnesses, worst first, of the terrain faces or of all but ghosts.
+/// Sorted badnesses, worst first, of the terrain faces or of all but ghosts. `norm` is for length.
 enum class Faces { Terrain, All };
-std::vector<long double> badnesses_of(const tinwright::Tin& tin, tinwright::Criterion criterion, Faces which);
+std::vector<long double> badnesses_of(const tinwright::Tin& tin, tinwright::Criterion criterion, Faces which,
+                                      tinwright::Norm norm = {});
 /// The number in CRS units that a report should give for a badness.
 double report_of(const tinwright::Tin& tin, tinwright::Criterion criterion, long double badness);
 
@@ -56,7 +57,8 @@ bool are_close(long double a, long double b);
 bool are_close(const std::vector<long double>& a, const std::vector<long double>& b);
 
 /// Sorted measures of the terrain faces, worst first, bit for bit as the engine compares them.
-std::vector<double> measures_of(const tinwright::Tin& tin, tinwright::Criterion criterion);
+std::vector<double> measures_of(const tinwright::Tin& tin, tinwright::Criterion criterion,
+                                tinwright::Norm norm = {});
 
 /// Whether both audits find nothing.
 bool is_sound(const tinwright::Tin& tin);

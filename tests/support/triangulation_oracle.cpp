@@ -12,6 +12,7 @@ namespace tinwright_tests::oracle {
 
 using tinwright::Criterion;
 using tinwright::Key2;
+using tinwright::Norm;
 
 namespace {
 
@@ -81,6 +82,21 @@ long double eccentricity(const std::array<Site, 3>& p) {
         }
     }
     return 0;
+}
+
+long double length_of(Norm norm, Key2 a, Key2 b) {
+    const long double x = std::fabs(number(difference(b.x, a.x)));
+    const long double y = std::fabs(number(difference(b.y, a.y)));
+    if (norm.is_maximum()) {
+        return std::max(x, y);
+    }
+    const long double p = norm.power();
+    return std::pow(std::pow(x, p) + std::pow(y, p), 1 / p);
+}
+
+long double longest_edge(const std::array<Site, 3>& p, Norm norm) {
+    return std::max({length_of(norm, p[0].key, p[1].key), length_of(norm, p[1].key, p[2].key),
+                     length_of(norm, p[0].key, p[2].key)});
 }
 
 bool is_before(Key2 a, Key2 b) { return a.x < b.x || (a.x == b.x && a.y < b.y); }
@@ -176,7 +192,7 @@ class Sweep {
     using Path = std::uint32_t;
     using Vector = std::vector<long double>;
 
-    Sweep(const Table& table, Criterion criterion)
+    Sweep(const Table& table, Criterion criterion, Norm norm)
         : table_(table),
           badness_(table.size() * table.size() * table.size()),
           best_(std::size_t{1} << table.size()),
@@ -187,7 +203,7 @@ class Sweep {
                 for (std::size_t c = b + 1; c < n; ++c) {
                     if (table.is_face(a, b, c)) {
                         badness_[(a * n + b) * n + c] =
-                            badness(criterion, table.point(a), table.point(b), table.point(c));
+                            badness(criterion, table.point(a), table.point(b), table.point(c), norm);
                     }
                 }
             }
@@ -368,7 +384,7 @@ bool is_inside_segment(Key2 p, Key2 a, Key2 b) {
     return p != a && p != b && turn(a, b, p) == 0 && dot(p, a, b) < 0;
 }
 
-long double badness(Criterion criterion, Site a, Site b, Site c) {
+long double badness(Criterion criterion, Site a, Site b, Site c, Norm norm) {
     std::array<Site, 3> p{a, b, c};
     std::sort(p.begin(), p.end(), [](const Site& s, const Site& t) { return is_before(s.key, t.key); });
     switch (criterion) {
@@ -378,15 +394,17 @@ long double badness(Criterion criterion, Site a, Site b, Site c) {
             return -least_height(p);
         case Criterion::Slope:
             return slope(p);
+        case Criterion::Length:
+            return longest_edge(p, norm);
         case Criterion::Eccentricity:
             break;
     }
     return eccentricity(p);
 }
 
-std::vector<long double> best_badnesses(const Sites& sites, Criterion criterion) {
+std::vector<long double> best_badnesses(const Sites& sites, Criterion criterion, Norm norm) {
     const Table table(sites);
-    return Sweep(table, criterion).best();
+    return Sweep(table, criterion, norm).best();
 }
 
 void for_each_triangulation(const Sites& sites,

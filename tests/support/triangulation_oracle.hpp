@@ -9,6 +9,7 @@
 
 #include "tinwright/criteria/criterion.hpp"
 #include "tinwright/geometry/lattice.hpp"
+#include "tinwright/geometry/norm.hpp"
 
 #include "support/oracles.hpp"
 
@@ -40,15 +41,16 @@ bool do_cross(tinwright::Key2 a, tinwright::Key2 b, tinwright::Key2 c, tinwright
 bool is_inside_segment(tinwright::Key2 p, tinwright::Key2 a, tinwright::Key2 b);
 
 /// The criterion's measure of a triangle in degrees, keys, or z over keys; negated for height, so that
-/// greater is always worse. The corners in any order, the same bits.
-long double badness(tinwright::Criterion criterion, Site a, Site b, Site c);
+/// greater is always worse. The corners in any order, the same bits. `norm` is for length.
+long double badness(tinwright::Criterion criterion, Site a, Site b, Site c, tinwright::Norm norm = {});
 
 /// Sorted badnesses, worst first, of the triangulation for which they come first in lexicographic order.
 ///
 /// Every triangulation is swept from the lower to the upper hull by monotone paths that advance over one
 /// triangle at a time. A path is the set of points on it, so there are 2^(n-2) at most, and what is left to
 /// be done above one depends on nothing else: best completions are tabulated. n <= 16; O(2^n n^2).
-std::vector<long double> best_badnesses(const Sites& sites, tinwright::Criterion criterion);
+std::vector<long double> best_badnesses(const Sites& sites, tinwright::Criterion criterion,
+                                        tinwright::Norm norm = {});
 
 /// Calls `visit` once with the faces of each triangulation (counter-clockwise). Plain recursion over the
 /// first edge without a face; a few thousand triangulations at nine points.
