@@ -40,7 +40,8 @@ class CornerView {
 
     /// What was seen, counter-clockwise; the first is the destination of `first`.
     [[nodiscard]] std::span<const Seen> seen() const { return seen_; }
-    /// Whether the view goes all around: after the last vertex comes the first again.
+    /// Whether the view goes all around: after the last vertex comes the first again. Where a single wall
+    /// ends, it is seen twice, first and last.
     [[nodiscard]] bool is_around() const { return is_around_; }
 
   private:
@@ -74,19 +75,21 @@ void CornerView::look(HalfEdgeId first, const IsWall& is_wall, const IsWorth& is
     const VertexId eye = mesh_->origin(first);
     seen_.push_back({mesh_->destination(first), next(first)});
     HalfEdgeId spoke = first;
-    do {
+    for (;;) {
         look_through(next(spoke), eye, is_wall, is_worth);
         const HalfEdgeId incoming = previous(spoke);  // the face's other edge at the eye
         const HalfEdgeId following = mesh_->twin(incoming);
-        is_around_ = following == first;
-        if (!is_around_) {
-            seen_.push_back({mesh_->origin(incoming), incoming});
+        const bool is_end = is_closed(incoming, is_wall);
+        is_around_ = following == first && !is_end;
+        if (is_around_) {
+            return;
         }
-        if (is_closed(incoming, is_wall)) {
+        seen_.push_back({mesh_->origin(incoming), incoming});
+        if (is_end) {
             return;
         }
         spoke = following;
-    } while (!is_around_);
+    }
 }
 
 /// Depth first, so that vertices come in the order of their directions.
