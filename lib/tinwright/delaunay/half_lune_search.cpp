@@ -1,0 +1,92 @@
+#include "tinwright/delaunay/half_lune_search.hpp"
+
+#include "tinwright/geometry/constructions.hpp"
+#include "tinwright/geometry/predicates.hpp"
+
+namespace tinwright {
+
+bool HalfLuneSearch::is_empty(HalfEdgeId h) {
+    const HalfEdgeId twin = mesh_->twin(h);
+    const bool is_left = mesh_->is_terrain(face_of(h));
+    const bool is_right = mesh_->is_terrain(face_of(twin));
+    // Most edges have an apex in their lune.
+    if ((is_left && is_apex_in_lune(h)) || (is_right && is_apex_in_lune(twin))) {
+        return false;
+    }
+    return (!is_left || is_empty_on_left(h)) && (!is_right || is_empty_on_left(twin));
+}
+
+bool HalfLuneSearch::is_apex_in_lune(HalfEdgeId h) const {
+    return is_in_lune(mesh_->origin(previous(h)), mesh_->origin(h), mesh_->destination(h));
+}
+
+// The apex of the first face is known not to be in the lune.
+bool HalfLuneSearch::is_empty_on_left(HalfEdgeId h) {
+    const VertexId p = mesh_->origin(h);
+    const VertexId q = mesh_->destination(h);
+    HalfEdgeId spoke = h;
+    for (;;) {
+        if (!is_empty_behind(next(spoke), p, q)) {
+            return false;
+        }
+        const HalfEdgeId incoming = previous(spoke);  // the face's other edge at p
+        if (is_closed(incoming) || is_beyond_lune(p, q, mesh_->origin(incoming))) {
+            return true;
+        }
+        spoke = mesh_->twin(incoming);
+        if (is_in_lune(mesh_->origin(previous(spoke)), p, q)) {
+            return false;
+        }
+    }
+}
+
+// From p, what is nearer than q and at least as near to q is within 60 degrees of the direction to q. The
+// cosine of 60 degrees squared is 0.25; rounding cannot make 0.24 of it. A face that starts within 60 degrees
+// ends within 240, so the turn cannot miss what lies beyond.
+bool HalfLuneSearch::is_beyond_lune(VertexId p, VertexId q, VertexId spoke) const {
+    const Key2 eye = keys_[p.value];
+    const Key2 to = keys_[q.value];
+    const Key2 key = keys_[spoke.value];
+    const double product = (to.x - eye.x) * (key.x - eye.x) + (to.y - eye.y) * (key.y - eye.y);
+    return product <= 0 || product * product < 0.24 * squared_distance(eye, to) * squared_distance(eye, key);
+}
+
+// What is seen through an edge a b from p, and not farther than p q, is not seen if neither a nor b is nearer
+// than q: let x be it, so that |p x| <= |p a| and |p x| <= |p b|. In the triangles p x a and p x b the angles
+// at x are then at least 90 degrees less half of those at p; so the angles of a b at p and at x sum to more
+// than 180 degrees, and p or x is strictly within the circle of the face before a b. Both are seen from
+// within that face, which is constrained Delaunay.
+bool HalfLuneSearch::may_hide(HalfEdgeId edge, VertexId p, VertexId q) const {
+    return lengths_.compare(p, mesh_->origin(edge), p, q) < 0 ||
+           lengths_.compare(p, mesh_->destination(edge), p, q) < 0;
+}
+
+bool HalfLuneSearch::is_empty_behind(HalfEdgeId far, VertexId p, VertexId q) {
+    const auto side = [&](VertexId to, VertexId v) {
+        return orient2d(keys_[p.value], keys_[to.value], keys_[v.value]);
+    };
+    wedges_.assign(1, {far, mesh_->origin(far), mesh_->destination(far)});
+    while (!wedges_.empty()) {
+        const Wedge wedge = wedges_.back();
+        wedges_.pop_back();
+        if (is_closed(wedge.edge) || !may_hide(wedge.edge, p, q)) {
+            continue;
+        }
+        const HalfEdgeId behind = mesh_->twin(wedge.edge);
+        const VertexId apex = mesh_->origin(previous(behind));
+        const bool is_past_right = side(wedge.right, apex) > 0;
+        const bool is_before_left = side(wedge.left, apex) < 0;
+        if (is_past_right && is_before_left && is_in_lune(apex, p, q)) {
+            return false;
+        }
+        if (is_past_right) {
+            wedges_.push_back({next(behind), wedge.right, is_before_left ? apex : wedge.left});
+        }
+        if (is_before_left) {
+            wedges_.push_back({previous(behind), is_past_right ? apex : wedge.right, wedge.left});
+        }
+    }
+    return true;
+}
+
+}  // namespace tinwright

@@ -1,0 +1,55 @@
+#ifndef TINWRIGHT_DELAUNAY_HALF_LUNE_SEARCH_HPP
+#define TINWRIGHT_DELAUNAY_HALF_LUNE_SEARCH_HPP
+
+#include <span>
+#include <vector>
+
+#include "tinwright/delaunay/length_order.hpp"
+#include "tinwright/delaunay/proximity_graphs.hpp"
+#include "tinwright/mesh/triangle_mesh.hpp"
+
+namespace tinwright {
+
+/// Looks for vertices in the lunes of a Delaunay mesh's edges, constrained or not, in the Euclidean norm.
+///
+/// Any vertex in the lune of p q that p sees, in the corner of p in which q is, will do: if q does not see
+/// it, a vertex of the shortest way from q to it is in the lune and seen from both (docs/criteria.md).
+class HalfLuneSearch {
+  public:
+    /// Both must outlive the search.
+    HalfLuneSearch(const TriangleMesh& mesh, std::span<const Key2> keys, LuneRim rim)
+        : mesh_(&mesh), keys_(keys), lengths_(keys), rim_(rim) {}
+
+    /// Whether the edge of `h`, which has terrain on one side at least, is in the relative neighbourhood
+    /// graph.
+    [[nodiscard]] bool is_empty(HalfEdgeId h);
+
+  private:
+    struct Wedge {
+        HalfEdgeId edge;  // on the near side
+        VertexId right;   // the lines of sight pass between these two
+        VertexId left;
+    };
+
+    [[nodiscard]] bool is_closed(HalfEdgeId h) const {
+        return mesh_->is_constrained(h) || !mesh_->is_terrain(face_of(mesh_->twin(h)));
+    }
+    [[nodiscard]] bool is_in_lune(VertexId x, VertexId p, VertexId q) const {
+        return rim_ == LuneRim::Ordered ? lengths_.is_in_lune(x, p, q) : lengths_.is_in_open_lune(x, p, q);
+    }
+    [[nodiscard]] bool is_apex_in_lune(HalfEdgeId h) const;
+    [[nodiscard]] bool is_empty_on_left(HalfEdgeId h);
+    [[nodiscard]] bool is_beyond_lune(VertexId p, VertexId q, VertexId spoke) const;
+    [[nodiscard]] bool is_empty_behind(HalfEdgeId far, VertexId p, VertexId q);
+    [[nodiscard]] bool may_hide(HalfEdgeId edge, VertexId p, VertexId q) const;
+
+    const TriangleMesh* mesh_;
+    std::span<const Key2> keys_;
+    LengthOrder lengths_;
+    LuneRim rim_;
+    std::vector<Wedge> wedges_;  // stack
+};
+
+}  // namespace tinwright
+
+#endif
