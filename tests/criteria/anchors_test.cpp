@@ -17,10 +17,10 @@ using namespace tinwright_tests;
 
 namespace {
 
-unsigned anchors_of(Criterion criterion, const Face& face) {
+unsigned anchors_of(Criterion criterion, const Face& face, Norm norm = {}) {
     const Tin tin = tin_of_face(face);
-    return visit_criterion(criterion, tin,
-                           [](const FaceCriterion auto& code) { return code.anchors({0}, {1}, {2}); });
+    return visit_criterion(
+        criterion, tin, [](const FaceCriterion auto& code) { return code.anchors({0}, {1}, {2}); }, norm);
 }
 
 }  // namespace
@@ -51,6 +51,39 @@ TEST_SUITE("criteria/anchors") {
         }
         CHECK(obtuse > cases(6000) / 4);
         CHECK(right > cases(6000) / 100);
+    }
+
+    TEST_CASE("length: the anchors are the corners opposite the longest edges, in every norm") {
+        std::array<int, 4> counts{};
+        for (int seed = 0; seed < cases(2000); ++seed) {
+            CAPTURE(seed);
+            Random random(static_cast<std::uint64_t>(seed));
+            Face face = any_face(random);
+            if (!orient(face)) {
+                continue;
+            }
+            for (const Norm norm : {Norm(), Norm::lp(1), Norm::maximum(), Norm::lp(3), Norm::lp(12)}) {
+                CAPTURE(norm_name(norm));
+                unsigned expected = 0;
+                for (unsigned i = 0; i < 3; ++i) {
+                    const Key2 p = face[i].key;
+                    const Key2 q = face[(i + 1) % 3].key;
+                    const Key2 r = face[(i + 2) % 3].key;
+                    const bool is_longest = oracle::compare_lengths(norm, q, r, p, q) >= 0 &&
+                                            oracle::compare_lengths(norm, q, r, r, p) >= 0;
+                    expected |= is_longest ? 1U << i : 0U;
+                }
+                ++counts[static_cast<std::size_t>(std::popcount(expected))];
+                REQUIRE(anchors_of(Criterion::Length, face, norm) == expected);
+            }
+        }
+        CHECK(counts[1] > 0);
+        CHECK(counts[2] > 0);  // isosceles
+        // Equilateral in the two norms whose unit disks are squares.
+        const Face diamond{{{{0, 0}, 0}, {{2, 0}, 0}, {{1, 1}, 0}}};
+        CHECK(anchors_of(Criterion::Length, diamond, Norm::lp(1)) == 7);
+        const Face square{{{{0, 0}, 0}, {{2, 0}, 0}, {{1, 2}, 0}}};
+        CHECK(anchors_of(Criterion::Length, square, Norm::maximum()) == 7);
     }
 
     TEST_CASE("slope: the anchor is the corner whose descent line runs through the face") {

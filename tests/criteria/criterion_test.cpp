@@ -25,10 +25,24 @@ namespace {
 /// What a measure may err by, relatively; the engine takes measures for equal that differ by twice that.
 constexpr double kError = 0x1p-45;
 
-double raw_measure(Criterion criterion, const Tin& tin, std::array<std::uint32_t, 3> order = {0, 1, 2}) {
-    return visit_criterion(criterion, tin, [&](const FaceCriterion auto& code) {
-        return code.measure({order[0]}, {order[1]}, {order[2]});
-    });
+double raw_measure(Criterion criterion, const Tin& tin, std::array<std::uint32_t, 3> order = {0, 1, 2},
+                   Norm norm = {}) {
+    return visit_criterion(
+        criterion, tin,
+        [&](const FaceCriterion auto& code) { return code.measure({order[0]}, {order[1]}, {order[2]}); },
+        norm);
+}
+
+/// Corners of an edge that no other is longer than, by integers of any length.
+std::array<Key2, 2> longest_edge(const Face& face, Norm norm) {
+    std::array<Key2, 2> longest{face[0].key, face[1].key};
+    for (const std::size_t i : {1U, 2U}) {
+        const std::array<Key2, 2> edge{face[i].key, face[(i + 1) % 3].key};
+        if (oracle::compare_lengths(norm, edge[0], edge[1], longest[0], longest[1]) > 0) {
+            longest = edge;
+        }
+    }
+    return longest;
 }
 
 double reported(Criterion criterion, const Face& face, int decimals = 0) {
@@ -69,11 +83,35 @@ TEST_SUITE("criteria/criterion") {
                 const double expected = number(exact.measure(criterion));
                 REQUIRE(std::abs(raw_measure(criterion, tin) - expected) <= kError * std::abs(expected));
             }
+            const double longest = std::sqrt(number(exact.measure(Criterion::Length)));
+            REQUIRE(std::abs(raw_measure(Criterion::Length, tin) - longest) <= kError * longest);
             const double slope = std::sqrt(raw_measure(Criterion::Slope, tin));
             const double expected = std::sqrt(number(exact.measure(Criterion::Slope)));
             REQUIRE(std::abs(slope - expected) <= kError * slope_bound(face, exact));
         }
         CHECK(obtuse > cases(6000) / 4);
+    }
+
+    TEST_CASE("the length of a face is that of its longest edge, in every norm") {
+        for (int seed = 0; seed < cases(600); ++seed) {
+            CAPTURE(seed);
+            Random random(static_cast<std::uint64_t>(seed));
+            Face face = any_face(random);
+            if (!orient(face)) {
+                continue;
+            }
+            const Tin tin = tin_of_face(face, 3);
+            for (const Norm norm : {Norm(), Norm::lp(1), Norm::maximum(), Norm::lp(3), Norm::lp(64)}) {
+                CAPTURE(norm_name(norm));
+                const auto [a, b] = longest_edge(face, norm);
+                const double measure = raw_measure(Criterion::Length, tin, {0, 1, 2}, norm);
+                REQUIRE(oracle::is_length(measure, 0x1p-44, norm, a, b));
+                std::array<std::uint32_t, 3> order{0, 1, 2};
+                while (std::next_permutation(order.begin(), order.end())) {
+                    REQUIRE(raw_measure(Criterion::Length, tin, order, norm) == measure);
+                }
+            }
+        }
     }
 
     TEST_CASE("a measure has the same bits in all six orders of the corners") {
@@ -115,6 +153,7 @@ TEST_SUITE("criteria/criterion") {
             };
             const long double area = ((x(1) - x(0)) * (y(2) - y(0)) - (y(1) - y(0)) * (x(2) - x(0))) / 2;
             long double largest = 0;
+            long double longest = 0;
             long double height = INFINITY;
             for (std::size_t i = 0; i < 3; ++i) {
                 const long double p = length(i, i + 1);
@@ -122,6 +161,7 @@ TEST_SUITE("criteria/criterion") {
                 const long double r = length(i + 1, i + 2);
                 largest = std::max(largest, std::acos((p * p + q * q - r * r) / (2 * p * q)));
                 height = std::min(height, 2 * area / r);
+                longest = std::max(longest, r);
             }
             if (largest > 3.1L || area < 1e-2L) {
                 continue;  // an arc cosine tells little there
@@ -130,6 +170,8 @@ TEST_SUITE("criteria/criterion") {
             REQUIRE(reported(Criterion::Angle, face, 2) == doctest::Approx(degrees).epsilon(1e-12));
             REQUIRE(reported(Criterion::Height, face, 2) ==
                     doctest::Approx(static_cast<double>(height)).epsilon(1e-12));
+            REQUIRE(reported(Criterion::Length, face, 2) ==
+                    doctest::Approx(static_cast<double>(longest)).epsilon(1e-14));
 
             // The plane through the three points by Cramer's rule.
             const long double nx = (static_cast<long double>(face[1].z) - face[0].z) * (y(2) - y(0)) -
@@ -163,6 +205,7 @@ TEST_SUITE("criteria/criterion") {
         CHECK(reported(Criterion::Height, right, 2) == doctest::Approx(2.4).epsilon(1e-15));
         CHECK(reported(Criterion::Slope, right, 2) == doctest::Approx(2).epsilon(1e-15));
         CHECK(reported(Criterion::Eccentricity, right, 2) == 0);
+        CHECK(reported(Criterion::Length, right, 2) == doctest::Approx(5).epsilon(1e-15));
         // A base of 8 under an angle of 135 degrees: the centre is 4 below it.
         const double rise = 4 * (std::sqrt(2.0) - 1);
         const Face obtuse{{{{0, 0}, 0}, {{8e12, 0}, 0}, {{4e12, std::round(1e12 * rise)}, 0}}};
@@ -244,13 +287,32 @@ TEST_SUITE("criteria/criterion") {
         }
     }
 
+    TEST_CASE("the worst length is told in the norm asked for; the other criteria know none") {
+        const Face right{{{{0, 0}, 0}, {{400, 0}, 8}, {{0, 300}, 0}}};
+        Tin tin = tin_of_face(right, 2);
+        tin.mesh = mesh_of(3, {0, 1, 2});
+        CHECK(find_worst(tin, Criterion::Length).all == doctest::Approx(5));
+        CHECK(find_worst(tin, Criterion::Length, Norm::lp(1)).all == doctest::Approx(7));
+        CHECK(find_worst(tin, Criterion::Length, Norm::maximum()).all == doctest::Approx(4));
+        CHECK(measure_face(tin, {0}, Criterion::Length, Norm::lp(3)) == doctest::Approx(std::cbrt(91.0)));
+        for (const Criterion criterion : kInsertionCriteria) {
+            CHECK(find_worst(tin, criterion, Norm::lp(1)).all == find_worst(tin, criterion).all);
+            CHECK(measure_face(tin, {0}, criterion, Norm::maximum()) == measure_face(tin, {0}, criterion));
+        }
+    }
+
     TEST_CASE("criteria are found by name, and say what they are") {
         for (const Criterion criterion : kCriteria) {
             CHECK(find_criterion(criterion_traits(criterion).name) == criterion);
             CHECK(criterion_traits(criterion).is_greater_better == (criterion == Criterion::Height));
             const bool is_strong = criterion == Criterion::Angle || criterion == Criterion::Height;
             CHECK((criterion_traits(criterion).condition == InsertionCondition::Strong) == is_strong);
+            const bool is_inserted = std::find(kInsertionCriteria.begin(), kInsertionCriteria.end(),
+                                               criterion) != kInsertionCriteria.end();
+            CHECK((criterion_traits(criterion).condition != InsertionCondition::None) == is_inserted);
         }
+        CHECK(find_criterion("length") == Criterion::Length);
+        CHECK(criterion_traits(Criterion::Length).unit == MeasureUnit::Length);
         CHECK_FALSE(find_criterion("delaunay").has_value());
         CHECK_FALSE(find_criterion("").has_value());
     }

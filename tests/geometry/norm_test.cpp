@@ -181,9 +181,10 @@ TEST_SUITE("geometry/norm") {
             {12, {3987, 4365}, {4472, 0}, 1},
         };
         Random random(1);
-        for (const auto& [p, one, other, sign] : examples) {
-            CAPTURE(p);
-            CAPTURE(one[0]);
+        for (const Example& example : examples) {
+            const auto& [p, one, other, sign] = example;
+            CAPTURE(example.p);
+            CAPTURE(example.one[0]);
             const double largest = std::max({one[0], one[1], other[0]});
             for (double scale = 1; scale * largest <= kWidest; scale = std::floor(3.7 * scale)) {
                 const Segment s = any_segment(random, scale * one[0], scale * one[1]);

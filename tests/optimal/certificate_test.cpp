@@ -132,6 +132,28 @@ TEST_SUITE("optimal/certificate") {
         CHECK(certificate.improvements.empty());
     }
 
+    TEST_CASE("of length what it lists is an improvement, but what it does not find may be there") {
+        int caught = 0;
+        const auto families = general_families();
+        for (int seed = 0; seed < cases(400); ++seed) {
+            CAPTURE(seed);
+            Random random(static_cast<std::uint64_t>(seed));
+            Tin tin = families[static_cast<std::size_t>(seed) % families.size()].make(random, 9);
+            flip_at_random(random, tin, static_cast<int>(random.integer(0, 6)));
+            const Certificate certificate = certify_all(tin, Criterion::Length);
+            const long double longest = badnesses_of(tin, Criterion::Length, Faces::All).front();
+            const long double least = oracle::best_badnesses(sites_of(tin), Criterion::Length).front();
+            for (const Improvement& improvement : certificate.improvements) {
+                REQUIRE(improvement.improved < improvement.measure);
+                if (improvement.measure == certificate.worst.all) {
+                    REQUIRE(longest > least);
+                }
+            }
+            caught += certificate.improvements.empty() && !are_close(longest, least) ? 1 : 0;
+        }
+        CHECK(caught > 0);
+    }
+
     TEST_CASE("a TIN is refuted if and only if it is not the best of all triangulations") {
         int refuted = 0;
         int confirmed = 0;

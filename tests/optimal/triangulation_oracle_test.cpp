@@ -1,7 +1,10 @@
 #include "support/triangulation_oracle.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
+#include <utility>
+#include <vector>
 
 #include <doctest/doctest.h>
 
@@ -46,11 +49,11 @@ oracle::Sites random_sites(Random& random, std::size_t count, double limit) {
 }
 
 std::vector<long double> badnesses_of(const oracle::Sites& sites, const std::vector<oracle::Triple>& faces,
-                                      Criterion criterion) {
+                                      Criterion criterion, Norm norm) {
     const auto site = [&](std::uint32_t i) { return oracle::Site{sites.keys[i], sites.z[i]}; };
     std::vector<long double> vector;
     for (const oracle::Triple& face : faces) {
-        vector.push_back(oracle::badness(criterion, site(face[0]), site(face[1]), site(face[2])));
+        vector.push_back(oracle::badness(criterion, site(face[0]), site(face[1]), site(face[2]), norm));
     }
     std::sort(vector.begin(), vector.end(), std::greater<>());
     return vector;
@@ -111,24 +114,34 @@ TEST_SUITE("optimal/triangulation_oracle") {
             for (std::int64_t i = random.integer(0, 2); i > 0; --i) {
                 constrain_one(random, sites);
             }
-            for (const Criterion criterion : kInsertionCriteria) {
+            std::vector<std::pair<Criterion, Norm>> measures{{Criterion::Length, Norm::lp(1)},
+                                                             {Criterion::Length, Norm::lp(5)},
+                                                             {Criterion::Length, Norm::maximum()}};
+            for (const Criterion criterion : kCriteria) {
+                measures.emplace_back(criterion, Norm());
+            }
+            for (const auto& measure : measures) {
+                const Criterion criterion = measure.first;
+                const Norm norm = measure.second;
                 CAPTURE(criterion_traits(criterion).name);
+                CAPTURE(norm_name(norm));
                 std::vector<long double> best;
                 bool is_first = true;
                 oracle::for_each_triangulation(sites, [&](const std::vector<oracle::Triple>& faces) {
-                    const auto vector = badnesses_of(sites, faces, criterion);
+                    const auto vector = badnesses_of(sites, faces, criterion, norm);
                     best = is_first ? vector : std::min(best, vector);
                     is_first = false;
                 });
                 REQUIRE_FALSE(is_first);
-                REQUIRE(oracle::best_badnesses(sites, criterion) == best);
+                REQUIRE(oracle::best_badnesses(sites, criterion, norm) == best);
             }
         }
     }
 
     TEST_CASE("the measures are those of the textbook") {
-        const auto of = [](Criterion criterion, oracle::Site a, oracle::Site b, oracle::Site c) {
-            return static_cast<double>(oracle::badness(criterion, a, b, c));
+        const auto of = [](Criterion criterion, oracle::Site a, oracle::Site b, oracle::Site c,
+                           Norm norm = {}) {
+            return static_cast<double>(oracle::badness(criterion, a, b, c, norm));
         };
         // Legs of 3 and 4 at a right angle; a plane that rises by 1 for 2 along x.
         const oracle::Site a{{0, 0}, 0};
@@ -138,6 +151,10 @@ TEST_SUITE("optimal/triangulation_oracle") {
         CHECK(of(Criterion::Height, a, b, c) == doctest::Approx(-2.4));
         CHECK(of(Criterion::Slope, a, b, c) == doctest::Approx(0.5));
         CHECK(of(Criterion::Eccentricity, a, b, c) == 0);
+        CHECK(of(Criterion::Length, a, b, c) == doctest::Approx(5));
+        CHECK(of(Criterion::Length, a, b, c, Norm::lp(1)) == doctest::Approx(7));
+        CHECK(of(Criterion::Length, a, b, c, Norm::lp(3)) == doctest::Approx(std::cbrt(91.0)));
+        CHECK(of(Criterion::Length, a, b, c, Norm::maximum()) == 4);
         // An angle of 120 degrees: the centre is the apex's mirror image beyond the base.
         const oracle::Site apex{{1000000, 577350}, 0};
         const oracle::Site right{{2000000, 0}, 0};

@@ -10,7 +10,7 @@
 namespace tinwright {
 
 /// Min-max length [tan1993, Ch. 5]: the longest edge of a face, in keys. Edge insertion gets caught in local
-/// optima under it [tan1993, Fig. 5.2].
+/// optima under it [tan1993, Fig. 5.2]; what makes it optimal is `optimal/min_max_length.hpp`.
 class LengthCriterion {
   public:
     static constexpr CriterionTraits kTraits{.name = "length",
@@ -29,8 +29,9 @@ class LengthCriterion {
         return std::max({length(norm_, p, q), length(norm_, q, r), length(norm_, r, p)});
     }
 
-    /// Every triangulation without the face's longest edge breaks it at the corner opposite; of equally long
-    /// ones all have to go.
+    /// The corner opposite the longest edge, which has to go; of several equally long ones all have to. Not
+    /// quite what the concept asks for: an edge from elsewhere may cut the longest edge off too, which is why
+    /// insertions from here can get caught.
     [[nodiscard]] unsigned anchors(VertexId a, VertexId b, VertexId c) const {
         const Key2 p = keys_[a.value];
         const Key2 q = keys_[b.value];

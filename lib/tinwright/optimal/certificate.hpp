@@ -13,7 +13,7 @@
 namespace tinwright {
 
 struct CertificateOptions {
-    Criterion criterion = Criterion::Slope;
+    Criterion criterion = Criterion::Slope;  ///< one of kInsertionCriteria, or see below
     std::optional<std::size_t> faces = 100;  ///< how many of the worst to examine; empty: all
     bool until_improvable = false;           ///< no more once one is found that can be improved
     /// Edges that cross more faces than this are not tried; empty: all edges are.
@@ -45,6 +45,9 @@ struct Certificate {
 /// programming [tan1993, Sec. 2.2]. A face that no such edge improves is in every optimal triangulation, ties
 /// apart, by the Cake-Cutting Lemma [tan1993, Sec. 3.3]. An edge that would run through a vertex is none: the
 /// one that ends there is tried. Of the edges that improve a face the first found is listed.
+///
+/// For the criteria of edge insertion. Of length, here in the Euclidean norm, what is listed as improvement
+/// is one, but nothing listed proves nothing: `certify_length` knows.
 ///
 /// An improvement counts only if it exceeds the rounding of measures: every new face, taken at the upper end
 /// of its error, has to be better than the old one at the lower end of its own.
