@@ -24,6 +24,7 @@ constexpr auto kCriterionChoices =
                                                                  {"height", Criterion::Height},
                                                                  {"angle", Criterion::Angle},
                                                                  {"eccentricity", Criterion::Eccentricity},
+                                                                 {"length", Criterion::Length},
                                                                  {"normal-angle", CreaseMeasure::NormalAngle},
                                                                  {"normal-jump", CreaseMeasure::NormalJump}});
 
@@ -108,8 +109,9 @@ std::optional<int> parse_order(const std::string& text) {
 
 void TriangulationOptions::add_to(CLI::App& parser, const std::string& default_domain) {
     add_value(parser, "--criterion", criterion_text, "NAME",
-              "delaunay|slope|height|angle|..., see the manual");
+              "delaunay|slope|height|angle|length|..., see the manual");
     add_value(parser, "--scope", scope_text, "SCOPE", "max|vector|top:P%|above:VALUE (default top:0.5%)");
+    add_value(parser, "--norm", norm_text, "NORM", "for length: l1|l2 (default)|linf|lp:P");
     add_value(parser, "--delaunay-order", order_text, "K|none", "for normal-* (default 3)");
     add_value(parser, "--budget", budget_text, "SECONDS", "stop optimising after this time");
     add_value(parser, "--domain", domain_text, "RULE",
@@ -136,11 +138,13 @@ void TriangulationOptions::finish_criterion() {
     if (!order_text.empty() && measure == nullptr) {
         throw UsageError("--delaunay-order is for flips: give --criterion normal-angle or normal-jump too");
     }
+    if (!norm_text.empty() && (criterion == nullptr || *criterion != Criterion::Length)) {
+        throw UsageError(
+            "--norm says how edges are measured: it is for --criterion length, and for --graph "
+            "mst and rng of tinwright tin");
+    }
     if (criterion != nullptr) {
-        optimize.emplace().criterion = *criterion;
-        if (!scope_text.empty()) {
-            optimize->scope = parse_scope(*criterion, scope_text);
-        }
+        finish_optimum(*criterion);
         optimize->budget_seconds = budget;
     } else if (!scope_text.empty()) {
         throw UsageError(measure == nullptr
@@ -156,7 +160,24 @@ void TriangulationOptions::finish_criterion() {
         }
     } else if (budget) {
         throw UsageError(
-            "--budget is for optimising: give --criterion slope, height, angle or eccentricity too");
+            "--budget is for optimising: give --criterion slope, height, angle, eccentricity or length too");
+    }
+}
+
+void TriangulationOptions::finish_optimum(Criterion criterion) {
+    optimize.emplace().criterion = criterion;
+    if (!scope_text.empty()) {
+        optimize->scope = parse_scope(criterion, scope_text);
+    }
+    if (criterion == Criterion::Length) {
+        if (!scope_text.empty() && optimize->scope.kind != Scope::Kind::Max) {
+            throw UsageError(
+                "--scope " + scope_text +
+                " does not apply to --criterion length, which makes the longest edge as short as "
+                "it can be and knows no order of the others: leave --scope out, or give max");
+        }
+        optimize->scope = {Scope::Kind::Max, 0};
+        optimize->norm = norm_value(norm_text);
     }
 }
 
@@ -166,6 +187,10 @@ void TriangulationOptions::finish(DomainRule::Kind default_domain, DuplicatePoli
     if (!max_edge_text.empty()) {
         max_edge = positive_value("--max-edge", max_edge_text);
     }
+    finish_samples(default_policy);
+}
+
+void TriangulationOptions::finish_samples(DuplicatePolicy default_policy) {
     duplicates.policy =
         duplicates_text.empty() ? default_policy : choice_value("--duplicates", duplicates_text, kPolicies);
     if (!tolerance_text.empty()) {
@@ -176,6 +201,21 @@ void TriangulationOptions::finish(DomainRule::Kind default_domain, DuplicatePoli
         }
     }
     threads = threads_text.empty() ? 0 : static_cast<int>(whole_value("--threads", threads_text, 0));
+}
+
+std::string TriangulationOptions::option_for_faces() const {
+    const std::array<std::pair<const char*, bool>, 6> options = {{{"--criterion", !criterion_text.empty()},
+                                                                  {"--scope", !scope_text.empty()},
+                                                                  {"--delaunay-order", !order_text.empty()},
+                                                                  {"--budget", !budget_text.empty()},
+                                                                  {"--domain", !domain_text.empty()},
+                                                                  {"--max-edge", !max_edge_text.empty()}}};
+    for (const auto& [name, is_given] : options) {
+        if (is_given) {
+            return name;
+        }
+    }
+    return {};
 }
 
 std::string TriangulationOptions::option_for_samples_only() const {
@@ -215,6 +255,11 @@ std::string TriangulationOptions::criterion_name() const {
         return choice_name(data_dependent->measure, kCreaseMeasures);
     }
     return optimize ? std::string(criterion_traits(optimize->criterion).name) : kDelaunay;
+}
+
+std::string TriangulationOptions::norm_name() const {
+    return optimize && optimize->criterion == Criterion::Length ? tinwright::norm_name(optimize->norm)
+                                                                : std::string();
 }
 
 std::string TriangulationOptions::scope_name() const {
@@ -259,6 +304,9 @@ std::string TriangulationOptions::policy_name() const { return choice_name(dupli
 
 std::string TriangulationOptions::canonical() const {
     std::string text = "--criterion " + criterion_name();
+    if (const std::string norm = norm_name(); !norm.empty()) {
+        text += " --norm " + norm;
+    }
     if (optimize) {
         text += " --scope " + scope_name();
     }
@@ -275,11 +323,27 @@ std::string TriangulationOptions::canonical() const {
     if (max_edge) {
         text += " --max-edge " + decimal_text(*max_edge);
     }
-    text += " --duplicates " + policy_name();
+    return text + " " + canonical_samples();
+}
+
+std::string TriangulationOptions::canonical_samples() const {
+    std::string text = "--duplicates " + policy_name();
     if (duplicates.tolerance > 0) {
         text += " --duplicate-tolerance " + decimal_text(duplicates.tolerance);
     }
     return text;
+}
+
+Norm norm_value(const std::string& text) {
+    if (text.empty()) {
+        return {};
+    }
+    const std::optional<Norm> norm = find_norm(text);
+    if (!norm) {
+        throw UsageError("--norm takes l1, l2, linf or lp:P with a whole number P from 1 to " +
+                         std::to_string(Norm::kLargestPower) + ", not " + io::quoted(text));
+    }
+    return *norm;
 }
 
 }  // namespace tinwright::tools

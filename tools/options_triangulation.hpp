@@ -14,6 +14,7 @@ namespace tinwright::tools {
 struct TriangulationOptions {
     std::string criterion_text;  ///< empty: delaunay
     std::string scope_text;
+    std::string norm_text;
     std::string budget_text;
     std::string order_text;
     std::string domain_text;  ///< empty: the command's default
@@ -35,7 +36,11 @@ struct TriangulationOptions {
     void add_threads_to(CLI::App& parser);
     /// Reads the texts; what is not given gets the defaults. Throws UsageError.
     void finish(DomainRule::Kind default_domain, DuplicatePolicy default_policy = DuplicatePolicy::Error);
+    /// Reads only what is done with samples before they become a TIN, and the number of threads.
+    void finish_samples(DuplicatePolicy default_policy = DuplicatePolicy::Error);
 
+    /// The first option given that is about faces, or empty.
+    [[nodiscard]] std::string option_for_faces() const;
     /// The first option given that makes no sense for a TIN whose faces already exist, or empty.
     [[nodiscard]] std::string option_for_samples_only() const;
 
@@ -44,6 +49,8 @@ struct TriangulationOptions {
                                                      const Progress& optimize_progress) const;
     /// "delaunay", "slope", ...
     [[nodiscard]] std::string criterion_name() const;
+    /// "l2", "linf", ...; empty for a criterion that measures no edges.
+    [[nodiscard]] std::string norm_name() const;
     /// "max", "vector", "top:P%" or "above:VALUE"; empty for a criterion that knows none.
     [[nodiscard]] std::string scope_name() const;
     /// "3", "none"; empty for a criterion that knows none.
@@ -53,10 +60,16 @@ struct TriangulationOptions {
     [[nodiscard]] std::string policy_name() const;
     /// The options that affect a TIN's faces, in a fixed order: what outputs record.
     [[nodiscard]] std::string canonical() const;
+    /// Those of `finish_samples` among them.
+    [[nodiscard]] std::string canonical_samples() const;
 
   private:
     void finish_criterion();
+    void finish_optimum(Criterion criterion);
 };
+
+/// The norm of that name, as `--norm` takes it; Euclidean of an empty text. Throws UsageError.
+Norm norm_value(const std::string& text);
 
 }  // namespace tinwright::tools
 

@@ -4,12 +4,12 @@
 #include <cstddef>
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "tinwright/geometry/point.hpp"
 #include "tinwright/geometry/progress.hpp"
 #include "tinwright/io/crs.hpp"
+#include "tinwright/io/write_tin.hpp"
 
 namespace tinwright::io {
 
@@ -21,22 +21,30 @@ struct GraphLine {
 };
 
 struct WriteGraphOptions {
-    std::string driver;                         ///< empty: from the extension
-    std::string layer_name;                     ///< empty: "graph"
-    std::vector<std::string> creation_options;  ///< KEY=VALUE
-    std::vector<std::string> layer_options;     ///< KEY=VALUE
+    std::string driver;  ///< GDAL's short name; empty: from the file's extension
+    std::string layer_name = "graph";
+    std::vector<std::string> creation_options;
+    std::vector<std::string> layer_options;
     bool overwrite = false;
-    std::vector<std::pair<std::string, std::string>> metadata;  ///< of the layer, where the format keeps any
+    TinMetadata metadata;
     Progress progress;
 };
 
-/// Writes lines of two points (LineString Z) in their order, with a field `length`. Same lines, same bytes.
-/// Drivers that lose z are refused, as in `write_tin`. Returns the driver's name.
-/// Throws IoError, UsageError; leaves nothing behind then. O(n).
-std::string write_graph(std::span<const GraphLine> lines, const Crs& crs, const std::string& target,
-                        const WriteGraphOptions& options);
-/// Throws what `write_graph` would for the target and options, before there is anything to write.
+struct WrittenGraph {
+    std::string driver;
+    std::size_t features = 0;
+    std::vector<std::string> warnings;
+};
+
+/// Checks, before any work is done, that the target's driver exists and keeps positions and elevations.
+/// Throws UsageError naming the driver and what to use instead.
 void check_graph_target(const std::string& target, const WriteGraphOptions& options);
+
+/// Writes one `LINESTRING Z` of two points an edge, with the fields `id`, its place in the order given, and
+/// `length`, under a temporary name. Same lines and options, same bytes. Throws UsageError, IoError,
+/// Cancelled; leaves nothing behind then. O(n).
+WrittenGraph write_graph(std::span<const GraphLine> lines, const Crs& crs, const std::string& target,
+                         const WriteGraphOptions& options);
 
 }  // namespace tinwright::io
 
