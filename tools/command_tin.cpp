@@ -4,17 +4,25 @@
 #include <chrono>
 #include <utility>
 
+#include "tinwright/geometry/threads.hpp"
+
 #include "conflict_layer.hpp"
 #include "console.hpp"
 #include "job_report.hpp"
 #include "option_values.hpp"
+#include "sample_graph.hpp"
 #include "surface_input.hpp"
 
 namespace tinwright::tools {
 
 namespace {
 
+using Clock = std::chrono::steady_clock;
 using Geometry = io::WriteTinOptions::Geometry;
+
+double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
 constexpr auto kGeometries =
     std::to_array<std::pair<std::string_view, Geometry>>({{"polygon", Geometry::Polygon},
@@ -38,6 +46,7 @@ void CommandTin::setup(const std::vector<std::string>& arguments) {
     add_value(*parser, "--layer-name,--nln", layer_name, "NAME", "layer to write (single-layer drivers)");
     add_value(*parser, "--geometry", geometry_text, "WHAT", "polygon (default)|tin|edges|vertices");
     parser->add_flag("--ids", keep_ids, "record line and cell numbers as feature ids");
+    graph.add_to(*parser);
     lines.add_sources_to(*parser);
     triangulation.add_to(*parser, "convex");
     lines.add_constraints_to(*parser);
@@ -47,14 +56,42 @@ void CommandTin::setup(const std::vector<std::string>& arguments) {
     talk.add_to(*parser);
     parse_options(*parser, arguments);
 
-    sources.finish(lines.has_breaklines());
-    lines.finish(sources.open_options);
+    if (graph.graph_text.empty()) {
+        finish_tin();
+    } else {
+        finish_graph();
+    }
     output.finish(true);
     check_key_values("--lco", layer_options);
-    geometry = choice_value("--geometry", geometry_text, kGeometries);
-    triangulation.finish(DomainRule::Kind::Convex);
     talk.finish(output.is_stdout());
     refuse_same_file("--conflicts", lines.conflicts, "-o", output.path);
+}
+
+void CommandTin::finish_tin() {
+    sources.finish(lines.has_breaklines());
+    lines.finish(sources.open_options);
+    geometry =
+        geometry_text.empty() ? Geometry::Polygon : choice_value("--geometry", geometry_text, kGeometries);
+    triangulation.finish(DomainRule::Kind::Convex);
+}
+
+void CommandTin::finish_graph() {
+    std::string option = triangulation.option_for_faces();
+    if (option.empty()) {
+        option = lines.first_given();
+    }
+    if (option.empty() && !geometry_text.empty()) {
+        option = "--geometry";
+    }
+    if (option.empty() && keep_ids) {
+        option = "--ids";
+    }
+    if (!option.empty()) {
+        throw UsageError("--graph writes lines between samples, and no TIN: " + option + " does not apply");
+    }
+    sources.finish();
+    graph.finish(triangulation.norm_text);
+    triangulation.finish_samples();
 }
 
 io::WriteTinOptions CommandTin::write_options() const {
@@ -71,8 +108,65 @@ io::WriteTinOptions CommandTin::write_options() const {
     return options;
 }
 
+io::WriteGraphOptions CommandTin::write_graph_options() const {
+    io::WriteGraphOptions options;
+    options.driver = output.driver;
+    if (!layer_name.empty()) {
+        options.layer_name = layer_name;
+    }
+    options.creation_options = output.creation_options;
+    options.layer_options = layer_options;
+    options.overwrite = output.overwrite;
+    options.metadata = {{"TINWRIGHT_VERSION", TINWRIGHT_VERSION},
+                        {"TINWRIGHT_COMMAND", "tin"},
+                        {"TINWRIGHT_OPTIONS", graph.canonical() + " " + triangulation.canonical_samples()}};
+    return options;
+}
+
 Outcome CommandTin::run() {
     Console console("tin", talk);
+    return graph.kind ? run_graph(console) : run_tin(console);
+}
+
+Outcome CommandTin::run_graph(Console& console) {
+    refuse_to_overwrite_sources(output.path, sources.sources);
+    io::WriteGraphOptions options = write_graph_options();
+    check_output_place(output.path, output.overwrite);
+    io::check_graph_target(output.path, options);
+
+    const SurfaceRequest request{
+        .sources = sources, .crs = crs, .triangulation = triangulation, .progress_end = 0.5};
+    const Surface surface = triangulate_locations(request, console);
+    auto start = Clock::now();
+    std::vector<io::GraphLine> edges;
+    run_with_threads(triangulation.threads, [&] {
+        edges = make_sample_graph(surface.tin, graph, console.progress().stage(0.5, 0.7));
+    });
+    JobReport report;
+    report.graph = summarize(edges, graph);
+    report.graph->unit = surface.crs.unit().empty() ? kUnknownLengthUnit : surface.crs.unit();
+    report.graph->seconds = seconds_since(start);
+    options.progress = console.progress().stage(0.7, 1);
+    start = Clock::now();
+    const io::WrittenGraph written = io::write_graph(edges, surface.crs, output.path, options);
+    report.write_seconds = seconds_since(start);
+    console.progress().finish();
+    for (const std::string& warning : written.warnings) {
+        console.warn(warning);
+    }
+
+    report.command = "tin";
+    report.duplicate_policy = triangulation.policy_name();
+    report.outputs = {output.path};
+    report.output_driver = written.driver;
+    console.say(report_text(report, surface, {talk.verbose, talk.verbose}));
+    if (talk.json) {
+        print_result(make_json(report, surface).text());
+    }
+    return Outcome::Done;
+}
+
+Outcome CommandTin::run_tin(Console& console) {
     std::vector<io::Source> read = lines.plain_sources();
     read.insert(read.end(), sources.sources.begin(), sources.sources.end());
     refuse_to_overwrite_sources(output.path, read);
@@ -101,7 +195,7 @@ Outcome CommandTin::run() {
     options.origins = std::move(surface.origins.vertices);
     options.lines = std::move(surface.origins.lines);
     options.progress = console.progress().stage(0.7, 1);
-    const auto start = std::chrono::steady_clock::now();
+    const auto start = Clock::now();
     const io::WrittenTin written = io::write_tin(surface.tin, surface.crs, output.path, options);
     if (surface.conflicts) {
         surface.conflicts->commit();
@@ -120,7 +214,7 @@ Outcome CommandTin::run() {
         report.outputs.push_back(lines.conflicts);
     }
     report.output_driver = written.driver;
-    report.write_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    report.write_seconds = seconds_since(start);
     console.say(report_text(report, surface, {talk.verbose, talk.verbose}));
     if (talk.json) {
         print_result(make_json(report, surface).text());

@@ -17,8 +17,9 @@ namespace tinwright::tools {
 /// What a TIN was made best at, and how well that went: of one made just now, or of a file by what it says.
 struct CriterionReport {
     std::string name;   ///< "delaunay", "slope", ...; empty: unknown (a foreign TIN)
+    std::string norm;   ///< "l2", ...: what edges are measured by; empty for a criterion that measures none
     std::string scope;  ///< empty for a criterion that knows none
-    std::string unit;   ///< "degree", "ratio", "metre", ..., "CRS unit" for lengths in an unknown one
+    std::string unit;   ///< "degree", "ratio", "metre", ..., `kUnknownLengthUnit`
     std::optional<double> worst;
     std::optional<double> worst_interior;
     std::optional<double> worst_delaunay;  ///< before optimising
@@ -26,6 +27,7 @@ struct CriterionReport {
     std::string proven;                    ///< "theorem", "tested" or "false"
     std::string stopped_by;                ///< "finished", "budget" or "interrupt"
     std::optional<OptimizeReport> counts;  ///< of a file only its numbers of ties, tries and so on
+    std::optional<LengthReport> length;    ///< instead, for length
     // Of a data-dependent TIN:
     std::string delaunay_order;          ///< "3", "none"
     std::optional<double> sum;           ///< of creases
@@ -33,7 +35,13 @@ struct CriterionReport {
     std::optional<double> flips;
     std::optional<double> refused;
     bool is_from_file = false;
+
+    /// The norm of that name; Euclidean where there is none, or no such.
+    [[nodiscard]] Norm edge_norm() const { return find_norm(norm).value_or(Norm()); }
 };
+
+/// The unit of lengths in an unknown one.
+inline constexpr const char* kUnknownLengthUnit = "CRS unit";
 
 /// The report on a TIN made with `options`.
 CriterionReport make_criterion_report(const TriangulationOptions& options, const TriangulateReport& result,

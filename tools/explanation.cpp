@@ -99,8 +99,25 @@ class Explainer {
         }
         result.made_by = maker(is_delaunay, constrained);
         if (const auto criterion = find_criterion(surface_.criterion.name)) {
-            result.measure = measure_face(tin_, place.face, *criterion);
+            const Norm norm = surface_.criterion.edge_norm();
+            result.measure = measure_face(tin_, place.face, *criterion, norm);
+            if (*criterion == Criterion::Length) {
+                result.length = explain_length(result.edges, norm);
+            }
         }
+    }
+
+    [[nodiscard]] ExplainedLength explain_length(const std::array<ExplainedEdge, 3>& edges, Norm norm) const {
+        ExplainedLength longest;
+        for (std::size_t i = 1; i < edges.size(); ++i) {
+            const ExplainedEdge& best = edges[longest.edge];
+            if (compare_lengths(norm, tin_.key(edges[i].a), tin_.key(edges[i].b), tin_.key(best.a),
+                                tin_.key(best.b)) > 0) {
+                longest.edge = i;
+            }
+        }
+        longest.of_tin = find_worst(tin_, Criterion::Length, norm).all;
+        return longest;
     }
 
     [[nodiscard]] std::string maker(bool is_delaunay, std::size_t constrained) const {

@@ -52,6 +52,12 @@ struct ExplainedEdge {
     std::vector<ExplainedLine> lines;
 };
 
+/// The longest edge of a face of a TIN that was made for length.
+struct ExplainedLength {
+    std::size_t edge = 0;  ///< of `Explanation::edges`; of equal ones the first
+    double of_tin = 0;     ///< longest edge of the whole TIN as it is here
+};
+
 struct ExplainedMethod {
     std::string name;
     SurfaceReading reading;
@@ -74,6 +80,7 @@ struct Explanation {
     std::array<ExplainedEdge, 3> edges;  ///< from each corner to the next
     std::string made_by;                 ///< a sentence
     std::optional<double> measure;       ///< of the face under the TIN's criterion
+    std::optional<ExplainedLength> length;
     std::vector<ExplainedMethod> methods;
 };
 

@@ -87,7 +87,24 @@ std::string shares_text(const std::vector<VertexWeight>& weights) {
     return text;
 }
 
-std::string measure_text(double measure, const Surface& surface) {
+/// "longest edge 12 to 7, 34.5 metre in norm l1; the TIN's longest has 98.1, proven: ...".
+std::string length_text(const Explanation& explanation, const Surface& surface) {
+    const CriterionReport& criterion = surface.criterion;
+    const ExplainedEdge& edge = explanation.edges[explanation.length->edge];
+    std::string text = "longest edge " + std::to_string(edge.a.value) + " to " +
+                       std::to_string(edge.b.value) + ", " + rounded(*explanation.measure) + " " +
+                       criterion.unit + " in norm " + norm_name(criterion.edge_norm());
+    text += *explanation.measure == explanation.length->of_tin
+                ? "; no edge of the TIN is longer"
+                : "; the longest of the TIN has " + rounded(explanation.length->of_tin);
+    return criterion.proven.empty() ? text : text + ", proven: " + criterion.proven;
+}
+
+std::string measure_text(const Explanation& explanation, const Surface& surface) {
+    if (explanation.length) {
+        return length_text(explanation, surface);
+    }
+    const double measure = *explanation.measure;
     std::string text = surface.criterion.name + " " + rounded(measure) + " " + surface.criterion.unit;
     if (surface.criterion.worst) {
         text += "; the worst face has " + rounded(*surface.criterion.worst);
@@ -143,6 +160,21 @@ JsonValue method_json(const ExplainedMethod& method, SlopeUnit unit) {
     return json.set("weights", weights);
 }
 
+JsonValue measure_json(const Explanation& explanation, const Surface& surface) {
+    JsonValue json = JsonValue::object();
+    json.set("criterion", surface.criterion.name);
+    if (explanation.length) {
+        json.set("norm", norm_name(surface.criterion.edge_norm()));
+    }
+    json.set("value", *explanation.measure).set("unit", surface.criterion.unit);
+    if (explanation.length) {
+        const ExplainedEdge& edge = explanation.edges[explanation.length->edge];
+        json.set("longest_edge", JsonValue::object().set("a", edge.a.value).set("b", edge.b.value));
+        json.set("longest_of_tin", explanation.length->of_tin);
+    }
+    return json;
+}
+
 template <class Items, class Make>
 JsonValue array_made(const Items& items, const Make& make) {
     JsonValue array = JsonValue::array();
@@ -183,7 +215,7 @@ std::string explanation_text(const Explanation& explanation, const Surface& surf
         }
         text.add("face", explanation.made_by);
         if (explanation.measure) {
-            text.add("criterion", measure_text(*explanation.measure, surface));
+            text.add("criterion", measure_text(explanation, surface));
         }
     }
     text.add("nearest sample", vertex_text(explanation.nearest));
@@ -220,10 +252,7 @@ JsonValue explanation_json(const Explanation& explanation, const Surface& surfac
     json.set("edges", array_made(explanation.edges, edge_json));
     json.set("made_by", explanation.made_by);
     if (explanation.measure) {
-        json.set("measure", JsonValue::object()
-                                .set("criterion", surface.criterion.name)
-                                .set("value", *explanation.measure)
-                                .set("unit", surface.criterion.unit));
+        json.set("measure", measure_json(explanation, surface));
     }
     return json.set("methods", array_made(explanation.methods, [&](const ExplainedMethod& method) {
                         return method_json(method, options.slope_unit);

@@ -69,6 +69,10 @@ JsonValue timings_json(const JobReport& report, const Surface& surface) {
     timings.set("read", surface.read_seconds);
     if (surface.report) {
         timings.set("triangulate", surface.report->triangulate_seconds);
+    }
+    if (report.graph) {
+        timings.set("graph", report.graph->seconds);
+    } else if (surface.report) {
         timings.set("constrain", surface.report->constrain_seconds);
         if (const std::optional<double> seconds = optimize_seconds(*surface.report)) {
             timings.set("optimize", *seconds);
@@ -84,6 +88,28 @@ JsonValue timings_json(const JobReport& report, const Surface& surface) {
         timings.set("write", report.write_seconds);
     }
     return timings;
+}
+
+/// The keys that are about faces and what they keep to.
+void set_face_keys(JsonValue& json, const Surface& surface) {
+    json.set("constrained_edges", count_constrained_edges(surface.tin.mesh));
+    if (surface.report) {
+        json.set("steiner_vertices", surface.lines.steiner_vertices.value_or(0));
+        json.set("conflicts", surface.report->lines.conflicts.size());
+    } else if (surface.lines.steiner_vertices) {
+        json.set("steiner_vertices", *surface.lines.steiner_vertices);
+    }
+    if (surface.lines.counts) {
+        json.set("lines", lines_json(surface.lines));
+    }
+    if (!surface.criterion.name.empty()) {
+        json.set("criterion", criterion_json(surface.criterion));
+    }
+    if (surface.report) {
+        json.set("conforming", surface.report->is_conforming && surface.report->is_left_delaunay());
+    } else if (surface.lines.is_conforming) {
+        json.set("conforming", *surface.lines.is_conforming);
+    }
 }
 
 std::string input_line(const Surface& surface) {
@@ -195,8 +221,9 @@ std::string crs_line(const Surface& surface) {
 std::string times_line(const JobReport& report, const Surface& surface) {
     std::string times = "read " + fixed(surface.read_seconds, 2);
     if (surface.report) {
-        times += ", triangulate " + fixed(surface.report->triangulate_seconds, 2) + ", domain " +
-                 fixed(surface.report->constrain_seconds, 2);
+        times += ", triangulate " + fixed(surface.report->triangulate_seconds, 2) +
+                 (report.graph ? ", graph " + fixed(report.graph->seconds, 2)
+                               : ", domain " + fixed(surface.report->constrain_seconds, 2));
         if (const std::optional<double> seconds = optimize_seconds(*surface.report)) {
             times += ", optimise " + fixed(*seconds, 2);
         }
@@ -239,8 +266,10 @@ JsonValue make_json(const JobReport& report, const Surface& surface) {
         json.set("samples", surface.report->samples);
     }
     json.set("vertices", surface.tin.vertex_count());
-    json.set("faces", surface.report ? surface.report->faces : surface.tin.mesh.count_terrain());
-    if (surface.report) {
+    if (!report.graph) {
+        json.set("faces", surface.report ? surface.report->faces : surface.tin.mesh.count_terrain());
+    }
+    if (surface.report && !report.graph) {
         json.set("hull_vertices", surface.report->hull_vertices);
     }
     json.set("quantum", data_quantum(surface.tin.lattice));
@@ -250,25 +279,12 @@ JsonValue make_json(const JobReport& report, const Surface& surface) {
             "duplicates",
             JsonValue::object().set("equal", duplicates.equal).set("conflicting", duplicates.conflicting));
     }
-    json.set("constrained_edges", count_constrained_edges(surface.tin.mesh));
-    if (surface.report) {
-        json.set("steiner_vertices", surface.lines.steiner_vertices.value_or(0));
-        json.set("conflicts", surface.report->lines.conflicts.size());
-    } else if (surface.lines.steiner_vertices) {
-        json.set("steiner_vertices", *surface.lines.steiner_vertices);
+    if (report.graph) {
+        json.set("graph", graph_json(*report.graph));
+    } else {
+        set_face_keys(json, surface);
+        json.set("domain", report.domain);
     }
-    if (surface.lines.counts) {
-        json.set("lines", lines_json(surface.lines));
-    }
-    if (!surface.criterion.name.empty()) {
-        json.set("criterion", criterion_json(surface.criterion));
-    }
-    if (surface.report) {
-        json.set("conforming", surface.report->is_conforming && surface.report->is_left_delaunay());
-    } else if (surface.lines.is_conforming) {
-        json.set("conforming", *surface.lines.is_conforming);
-    }
-    json.set("domain", report.domain);
     if (report.raster) {
         json.set("raster", raster_json(*report.raster));
     }
@@ -297,7 +313,12 @@ std::string report_text(const JobReport& report, const Surface& surface, const R
     for (const auto& [label, line] : lines_lines(surface.lines)) {
         add(label, line);
     }
-    add("TIN", tin_line(report, surface));
+    if (report.graph) {
+        add("graph",
+            graph_line(*report.graph) + " on " + counted(surface.tin.vertex_count(), "vertex", "vertices"));
+    } else {
+        add("TIN", tin_line(report, surface));
+    }
     std::string label = "criterion";
     for (const std::string& line : criterion_lines(surface.criterion)) {
         add(label, line);

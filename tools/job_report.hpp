@@ -11,6 +11,7 @@
 
 #include "contour_report.hpp"
 #include "json_value.hpp"
+#include "sample_graph.hpp"
 #include "surface_input.hpp"
 
 namespace tinwright::tools {
@@ -30,6 +31,7 @@ struct JobReport {
     std::string duplicate_policy;
     std::optional<RasterReport> raster;
     std::optional<ContourReport> contours;
+    std::optional<GraphReport> graph;  ///< instead of a TIN: `surface` has vertices and no faces to tell of
     std::vector<std::pair<std::string, std::string>> details;  ///< label and line, for people only
     std::vector<std::string> outputs;
     std::string output_driver;

@@ -12,6 +12,7 @@
 
 #include "criterion_report.hpp"
 #include "option_values.hpp"
+#include "options_triangulation.hpp"
 
 namespace tinwright::tools {
 
@@ -24,7 +25,8 @@ constexpr auto kCriterionChoices =
     std::to_array<std::pair<std::string_view, Criterion>>({{"slope", Criterion::Slope},
                                                            {"height", Criterion::Height},
                                                            {"angle", Criterion::Angle},
-                                                           {"eccentricity", Criterion::Eccentricity}});
+                                                           {"eccentricity", Criterion::Eccentricity},
+                                                           {"length", Criterion::Length}});
 
 bool is_heuristic(const std::string& criterion) {
     return std::any_of(kCreaseMeasures.begin(), kCreaseMeasures.end(),
@@ -96,21 +98,24 @@ JsonValue location_json(const Point3& p) { return JsonValue::array_of({p.x, p.y,
 
 void OptimalityOptions::add_to(CLI::App& parser) {
     add_value(parser, "--criterion", criterion_text, "NAME",
-              "prove it again: slope|height|angle|eccentricity");
+              "prove again: slope|height|angle|eccentricity|length");
+    add_value(parser, "--norm", norm_text, "NORM", "of length (default: as the file says, or l2)");
     add_value(parser, "--worst", worst_text, "COUNT", "for so many of the worst faces (default 100)");
-    parser.add_flag("--all", all, "for all faces");
+    parser.add_flag("--all", all, "for all faces; for length: polygons of any size");
     add_value(parser, "--reach", reach_text, "FACES", "by edges across so many, or all (default 100)");
 }
 
 void OptimalityOptions::finish() {
     const auto need_criterion = [this](bool is_given, const std::string& option) {
         if (is_given && criterion_text.empty()) {
-            throw UsageError(option + " is for --criterion: say which, slope, height, angle or eccentricity");
+            throw UsageError(option +
+                             " is for --criterion: say which, slope, height, angle, eccentricity or length");
         }
     };
     need_criterion(!worst_text.empty(), "--worst");
     need_criterion(all, "--all");
     need_criterion(!reach_text.empty(), "--reach");
+    need_criterion(!norm_text.empty(), "--norm");
     if (all && !worst_text.empty()) {
         throw UsageError("--worst and --all exclude each other");
     }
@@ -120,11 +125,13 @@ void OptimalityOptions::finish() {
     if (is_heuristic(criterion_text)) {
         throw UsageError("--criterion " + criterion_text +
                          " makes a TIN by a heuristic, of which there is nothing to prove; slope, height, "
-                         "angle and eccentricity can be proven");
+                         "angle, eccentricity and length can be proven");
     }
     if (!criterion_text.empty()) {
         criterion = choice_value("--criterion", criterion_text, kCriterionChoices);
+        refuse_others_options();
     }
+    norm = norm_text.empty() ? std::nullopt : std::optional(norm_value(norm_text));
     if (!worst_text.empty()) {
         worst = static_cast<std::size_t>(whole_value("--worst", worst_text, 1));
     }
@@ -136,17 +143,38 @@ void OptimalityOptions::finish() {
     }
 }
 
+void OptimalityOptions::refuse_others_options() const {
+    if (criterion != Criterion::Length && !norm_text.empty()) {
+        throw UsageError("--norm says how edges are measured: it is for --criterion length");
+    }
+    if (criterion == Criterion::Length && !(worst_text.empty() && reach_text.empty())) {
+        throw UsageError(
+            std::string(worst_text.empty() ? "--reach" : "--worst") +
+            " does not apply to --criterion length, which is about the longest edge; --all looks "
+            "at polygons of any size");
+    }
+}
+
 OptimalityReport check_optimality(const io::TinFile& file, const OptimalityOptions& options,
                                   const Progress& progress) {
     const Tin tin = io::make_tin(file);
     OptimalityReport report;
     report.criterion = *options.criterion;
+    report.faces = file.face_ids.size();
+    if (report.criterion == Criterion::Length) {
+        const LengthCheck& length =
+            report.length.emplace(check_length(file, tin, {options.norm, options.all}, progress));
+        if (length.is_improvable()) {
+            report.listed.push_back({length.face, length.from, length.to, length.certificate.longest,
+                                     *length.certificate.attainable});
+        }
+        return report;
+    }
     const CriterionReport made = read_criterion_report(file.metadata);
     if (made.name == criterion_traits(report.criterion).name) {
         report.scope = made.scope;
         report.is_unfinished = made.stopped_by == "budget" || made.stopped_by == "interrupt";
     }
-    report.faces = file.face_ids.size();
     report.reach = options.reach;
     CertificateOptions certificate;
     certificate.criterion = report.criterion;
@@ -175,6 +203,9 @@ OptimalityReport check_optimality(const io::TinFile& file, const OptimalityOptio
 }
 
 std::string optimality_verdict(const OptimalityReport& report) {
+    if (report.length) {
+        return length_verdict(*report.length);
+    }
     const Certificate& certificate = report.certificate;
     std::string text = std::string(criterion_traits(report.criterion).name) + ": ";
     const bool is_cut = certificate.cut > 0 && report.reach;
@@ -202,6 +233,9 @@ std::string optimality_verdict(const OptimalityReport& report) {
 }
 
 std::string improvable_lines(const OptimalityReport& report, const std::string& file) {
+    if (report.length) {
+        return length_line(*report.length, file);
+    }
     const std::string measure(criterion_traits(report.criterion).measure);
     std::string lines;
     for (const ImprovableFace& face : report.listed) {
@@ -218,6 +252,9 @@ std::string improvable_lines(const OptimalityReport& report, const std::string& 
 }
 
 JsonValue optimality_json(const OptimalityReport& report) {
+    if (report.length) {
+        return length_json(*report.length);
+    }
     const Certificate& certificate = report.certificate;
     JsonValue listed = JsonValue::array();
     for (const ImprovableFace& face : report.listed) {

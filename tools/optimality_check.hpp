@@ -11,6 +11,7 @@
 #include "tinwright/optimal/certificate.hpp"
 
 #include "json_value.hpp"
+#include "length_check.hpp"
 #include "parse_options.hpp"
 
 /// Proving the TIN of a file optimal again, for `tinwright check --criterion`.
@@ -19,18 +20,23 @@ namespace tinwright::tools {
 /// What is to be proven, of how many faces.
 struct OptimalityOptions {
     std::string criterion_text;  ///< empty: nothing
+    std::string norm_text;
     std::string worst_text;
     std::string reach_text;
     bool all = false;
 
     // After `finish`:
     std::optional<Criterion> criterion;
+    std::optional<Norm> norm;          ///< for length; empty: as the file says
     std::optional<std::size_t> worst;  ///< empty: a hundred, or what the scope promises
     std::optional<std::size_t> reach;  ///< empty: without limit
 
     void add_to(CLI::App& parser);
     /// Throws UsageError.
     void finish();
+
+  private:
+    void refuse_others_options() const;
 };
 
 /// A face that is not as good as can be.
@@ -55,14 +61,19 @@ struct OptimalityReport {
     Certificate certificate;  ///< with slots as faces, which mean nothing outside
     /// The face after those examined can be improved, which the scope does not rule out.
     bool is_next_improvable = false;
+    /// Of length the longest edge, with a face that has it.
     std::vector<ImprovableFace> listed;
+    std::optional<LengthCheck> length;  ///< for length, which knows nothing of the above but `criterion`
 
-    [[nodiscard]] std::size_t improvable() const { return certificate.improvements.size(); }
+    [[nodiscard]] std::size_t improvable() const {
+        return length ? listed.size() : certificate.improvements.size();
+    }
 };
 
 /// Examines as many of the worst faces as `options` say. If they do not, a hundred: of scope `above` only
 /// those beyond its value, and of `max` and `top`, which promise no more than the worst face, down to the
-/// first that can be improved. `file`: without violations. Throws InputError, Cancelled.
+/// first that can be improved. Of length, the longest edge alone. `file`: without violations. Throws
+/// InputError, Cancelled.
 OptimalityReport check_optimality(const io::TinFile& file, const OptimalityOptions& options,
                                   const Progress& progress);
 

@@ -59,7 +59,9 @@ std::string located(const std::string& message, const std::vector<std::string>& 
     return places.empty() ? text : text + ")";
 }
 
-Triangulated triangulate_located(const Inputs& inputs, const TriangulateOptions& options) {
+/// What `make` returns; its errors get the places in the files added.
+template <class Make>
+Triangulated make_located(const Inputs& inputs, const Make& make) {
     const LinePoints line_points(inputs.lines.lines);
     const auto places_of = [&](const std::vector<std::size_t>& points) {
         std::vector<std::string> places;
@@ -71,7 +73,7 @@ Triangulated triangulate_located(const Inputs& inputs, const TriangulateOptions&
         return places;
     };
     try {
-        return triangulate(inputs.samples.points, inputs.lines.lines, options);
+        return make();
     } catch (const DuplicateError& error) {
         std::vector<std::size_t> first;
         if (!error.first().empty()) {
@@ -125,6 +127,14 @@ Inputs read_inputs(const SurfaceRequest& request, Console& console, double end) 
         }
     }
     return inputs;
+}
+
+std::vector<io::SampleSlice> slices_without_ids(Inputs& inputs) {
+    std::vector<io::SampleSlice> slices = std::move(inputs.samples.slices);
+    for (io::SampleSlice& slice : slices) {
+        slice.ids = {};
+    }
+    return slices;
 }
 
 SourceName name_of(const io::SampleSlice& slice) {
@@ -223,7 +233,8 @@ Surface triangulate_sources(const SurfaceRequest& request, Console& console) {
     if (request.lines != nullptr) {
         request.lines->apply_to(options);
     }
-    Triangulated made = triangulate_located(inputs, options);
+    Triangulated made =
+        make_located(inputs, [&] { return triangulate(inputs.samples.points, inputs.lines.lines, options); });
     // What was done while reading comes first, as it was done first.
     std::vector<LineConflict>& conflicts = made.report.lines.conflicts;
     conflicts.insert(conflicts.begin(), inputs.lines.conflicts.begin(), inputs.lines.conflicts.end());
@@ -256,11 +267,27 @@ Surface triangulate_sources(const SurfaceRequest& request, Console& console) {
     for (const std::string& warning : warnings) {
         console.warn(warning);
     }
-    surface.slices = std::move(inputs.samples.slices);
-    for (io::SampleSlice& slice : surface.slices) {
-        slice.ids = {};  // the origins have what is wanted of them
-    }
+    surface.slices = slices_without_ids(inputs);  // the origins have what is wanted of them
     surface.read_seconds = inputs.samples.seconds + inputs.lines.seconds;
+    return surface;
+}
+
+Surface triangulate_locations(const SurfaceRequest& request, Console& console) {
+    const double read_end = 0.6 * request.progress_end;
+    Inputs inputs = read_inputs(request, console, read_end);
+    TriangulateOptions options;
+    options.duplicates = request.triangulation.duplicates;
+    options.threads = request.triangulation.threads;
+    options.progress = console.progress().stage(read_end, request.progress_end);
+    Triangulated made = make_located(
+        inputs, [&] { return tinwright::triangulate_locations(inputs.samples.points, options); });
+    Surface surface;
+    surface.crs = inputs.samples.crs;
+    surface.z_unit = inputs.samples.z_unit;
+    surface.tin = std::move(made.tin);
+    surface.report = std::move(made.report);
+    surface.slices = slices_without_ids(inputs);
+    surface.read_seconds = inputs.samples.seconds;
     return surface;
 }
 

@@ -76,6 +76,10 @@ bool is_existing_tin(const SurfaceRequest& request);
 /// get the file and line or feature of each added.
 Surface triangulate_sources(const SurfaceRequest& request, Console& console);
 
+/// Reads samples and makes the Delaunay triangulation of their locations, for a graph of them: two are
+/// enough, and all may lie on one line. The request is without lines. Warnings and errors likewise.
+Surface triangulate_locations(const SurfaceRequest& request, Console& console);
+
 /// Reads the one source as a TIN.
 Surface read_existing_tin(const SurfaceRequest& request, Console& console);
 

@@ -273,4 +273,28 @@ Triangulated triangulate(std::span<const Point3> samples, const TriangulateOptio
     return triangulate(samples, {}, options);
 }
 
+Triangulated triangulate_locations(std::span<const Point3> samples, const TriangulateOptions& options) {
+    check_options(options);
+    tbb::task_arena arena(count_threads(options.threads));
+    return arena.execute([&] {
+        Triangulated result;
+        const auto start = Clock::now();
+        report_progress(options.progress, 0);
+        result.report.samples = samples.size();
+        make_plain_tin(samples, options, result);
+        const std::size_t count = result.tin.keys.size();
+        if (count < 2) {
+            throw InputError("a graph needs two distinct sample locations or more, there " +
+                             std::string(count == 1 ? "is " : "are ") + std::to_string(count));
+        }
+        const HullAndDetail seen = examine(result.tin);
+        check_detail(result.tin, seen);
+        result.report.hull_vertices = seen.hull_vertices;
+        result.report.faces = result.tin.mesh.count_terrain();
+        result.report.triangulate_seconds = seconds_since(start);
+        report_progress(options.progress, 1);
+        return result;
+    });
+}
+
 }  // namespace tinwright

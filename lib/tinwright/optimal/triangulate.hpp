@@ -79,6 +79,12 @@ Triangulated triangulate(std::span<const Point3> samples, std::span<const Breakl
                          const TriangulateOptions& options = {});
 Triangulated triangulate(std::span<const Point3> samples, const TriangulateOptions& options = {});
 
+/// The Delaunay triangulation of the samples' distinct locations as it is, of which graphs of neighbours are
+/// made (`delaunay/proximity_graphs.hpp`): two locations are enough, and all may lie on one line.
+/// Of `options` count what becomes of duplicates, threads and progress. Throws InputError: fewer than two
+/// locations, and what `make_sample_vertices` throws; Cancelled. O(n log n).
+Triangulated triangulate_locations(std::span<const Point3> samples, const TriangulateOptions& options = {});
+
 }  // namespace tinwright
 
 #endif
