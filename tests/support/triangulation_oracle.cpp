@@ -4,9 +4,8 @@
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <numeric>
-#include <optional>
-#include <utility>
+
+#include "support/triangulation_sweep.hpp"
 
 namespace tinwright_tests::oracle {
 
@@ -101,108 +100,18 @@ long double longest_edge(const std::array<Site, 3>& p, Norm norm) {
 
 bool is_before(Key2 a, Key2 b) { return a.x < b.x || (a.x == b.x && a.y < b.y); }
 
-/// Sites in lexicographic order, and which of their triples may be faces.
-class Table {
+/// What a sweep with whole vectors adds up: the sorted badnesses.
+class Badnesses {
   public:
-    explicit Table(const Sites& sites) : order_(sites.keys.size()) {
-        std::iota(order_.begin(), order_.end(), 0U);
-        std::sort(order_.begin(), order_.end(),
-                  [&](std::uint32_t a, std::uint32_t b) { return is_before(sites.keys[a], sites.keys[b]); });
-        std::vector<std::size_t> rank(order_.size());
-        for (std::size_t i = 0; i < order_.size(); ++i) {
-            rank[order_[i]] = i;
-            points_.push_back({sites.keys[order_[i]], sites.z[order_[i]]});
-        }
-        for (const Edge& edge : sites.constraints) {
-            constraints_.push_back({rank[edge[0]], rank[edge[1]]});
-        }
-        tabulate();
-    }
+    using Value = std::vector<long double>;
 
-    [[nodiscard]] std::size_t size() const { return points_.size(); }
-    [[nodiscard]] Site point(std::size_t rank) const { return points_[rank]; }
-    [[nodiscard]] std::uint32_t site(std::size_t rank) const { return order_[rank]; }
-    [[nodiscard]] bool do_edges_cross(std::size_t a, std::size_t b, std::size_t c, std::size_t d) const {
-        return do_cross(points_[a].key, points_[b].key, points_[c].key, points_[d].key);
-    }
-    /// Side of c of the line a b, by rank.
-    [[nodiscard]] int side(std::size_t a, std::size_t b, std::size_t c) const {
-        return side_[(a * size() + b) * size() + c];
-    }
-    /// Whether the triangle of these three, a < b < c, has no other point in it or on its edges and crosses
-    /// no constraint.
-    [[nodiscard]] bool is_face(std::size_t a, std::size_t b, std::size_t c) const {
-        return is_face_[(a * size() + b) * size() + c];
-    }
-
-  private:
-    void tabulate() {
-        const std::size_t n = size();
-        side_.assign(n * n * n, 0);
-        is_face_.assign(n * n * n, false);
-        for (std::size_t a = 0; a < n; ++a) {
-            for (std::size_t b = 0; b < n; ++b) {
-                for (std::size_t c = 0; c < n; ++c) {
-                    side_[(a * n + b) * n + c] = turn(points_[a].key, points_[b].key, points_[c].key);
-                }
-            }
-        }
-        std::vector<bool> is_allowed(n * n, true);
-        for (std::size_t a = 0; a < n; ++a) {
-            for (std::size_t b = 0; b < n; ++b) {
-                for (const auto& [from, to] : constraints_) {
-                    is_allowed[a * n + b] = is_allowed[a * n + b] && !do_edges_cross(a, b, from, to);
-                }
-            }
-        }
-        for (std::size_t a = 0; a < n; ++a) {
-            for (std::size_t b = a + 1; b < n; ++b) {
-                for (std::size_t c = b + 1; c < n; ++c) {
-                    is_face_[(a * n + b) * n + c] = is_allowed[a * n + b] && is_allowed[b * n + c] &&
-                                                    is_allowed[a * n + c] && is_empty(a, b, c);
-                }
-            }
-        }
-    }
-
-    [[nodiscard]] bool is_empty(std::size_t a, std::size_t b, std::size_t c) const {
-        const int sense = side(a, b, c);
-        if (sense == 0) {
-            return false;
-        }
-        for (std::size_t p = 0; p < size(); ++p) {
-            if (p != a && p != b && p != c && side(a, b, p) * sense >= 0 && side(b, c, p) * sense >= 0 &&
-                side(c, a, p) * sense >= 0) {
-                return false;
-            }
-        }
-        return true;
-    }
-
-    std::vector<std::uint32_t> order_;
-    std::vector<Site> points_;
-    std::vector<std::array<std::size_t, 2>> constraints_;
-    std::vector<int> side_;
-    std::vector<bool> is_face_;
-};
-
-/// Tabulates the best completions above monotone paths, which are sets of ranks as bits.
-class Sweep {
-  public:
-    using Path = std::uint32_t;
-    using Vector = std::vector<long double>;
-
-    Sweep(const Table& table, Criterion criterion, Norm norm)
-        : table_(table),
-          badness_(table.size() * table.size() * table.size()),
-          best_(std::size_t{1} << table.size()),
-          is_known_(std::size_t{1} << table.size()) {
-        const std::size_t n = table.size();
-        for (std::size_t a = 0; a < n; ++a) {
-            for (std::size_t b = a + 1; b < n; ++b) {
-                for (std::size_t c = b + 1; c < n; ++c) {
+    Badnesses(const FaceTable& table, Criterion criterion, Norm norm)
+        : size_(table.size()), badness_(size_ * size_ * size_) {
+        for (std::size_t a = 0; a < size_; ++a) {
+            for (std::size_t b = a + 1; b < size_; ++b) {
+                for (std::size_t c = b + 1; c < size_; ++c) {
                     if (table.is_face(a, b, c)) {
-                        badness_[(a * n + b) * n + c] =
+                        badness_[(a * size_ + b) * size_ + c] =
                             badness(criterion, table.point(a), table.point(b), table.point(c), norm);
                     }
                 }
@@ -210,90 +119,21 @@ class Sweep {
         }
     }
 
-    /// The whole of it, from the lower hull.
-    const Vector& best() {
-        Path lower = 0;
-        upper_ = 0;
-        for (std::size_t p = 0; p < table_.size(); ++p) {
-            lower |= is_on_hull(p, 1) ? bit(p) : 0;
-            upper_ |= is_on_hull(p, -1) ? bit(p) : 0;
-        }
-        return *complete(lower);
+    [[nodiscard]] Value with_face(Value vector, std::size_t a, std::size_t b, std::size_t c) const {
+        const long double value = badness_[(a * size_ + b) * size_ + c];
+        vector.insert(std::lower_bound(vector.begin(), vector.end(), value, std::greater<>()), value);
+        return vector;
     }
 
   private:
-    static Path bit(std::size_t p) { return Path{1} << p; }
-
-    [[nodiscard]] bool is_on_hull(std::size_t p, int inner_side) const {
-        for (std::size_t a = 0; a < p; ++a) {
-            for (std::size_t c = p + 1; c < table_.size(); ++c) {
-                if (table_.side(a, c, p) == inner_side) {
-                    return false;
-                }
-            }
-        }
-        return true;
-    }
-
-    /// Empty if no triangulation contains the path.
-    const std::optional<Vector>& complete(Path path) {
-        if (is_known_[path]) {
-            return best_[path];
-        }
-        is_known_[path] = true;
-        if (path == upper_) {
-            best_[path] = Vector{};
-            return best_[path];
-        }
-        std::vector<std::size_t> on_path;
-        for (std::size_t p = 0; p < table_.size(); ++p) {
-            if ((path & bit(p)) != 0) {
-                on_path.push_back(p);
-            }
-        }
-        for (std::size_t i = 1; i < on_path.size(); ++i) {
-            const std::size_t a = on_path[i - 1];
-            const std::size_t c = on_path[i];
-            for (std::size_t p = a + 1; p < c; ++p) {
-                if (table_.side(a, c, p) > 0 && table_.is_face(a, p, c)) {
-                    advance(path, path | bit(p), a, p, c);
-                }
-            }
-            if (i + 1 < on_path.size()) {
-                const std::size_t after = on_path[i + 1];
-                if (table_.side(a, c, after) > 0 && table_.is_face(a, c, after)) {
-                    advance(path, path & ~bit(c), a, c, after);
-                }
-            }
-        }
-        return best_[path];
-    }
-
-    /// Takes the completion by the triangle a b c and then the best above `next`, if it is better.
-    void advance(Path path, Path next, std::size_t a, std::size_t b, std::size_t c) {
-        const std::optional<Vector>& rest = complete(next);
-        if (!rest) {
-            return;
-        }
-        Vector vector = *rest;
-        const long double value = badness_[(a * table_.size() + b) * table_.size() + c];
-        vector.insert(std::lower_bound(vector.begin(), vector.end(), value, std::greater<>()), value);
-        if (!best_[path] || vector < *best_[path]) {
-            best_[path] = std::move(vector);
-        }
-    }
-
-    const Table& table_;
+    std::size_t size_;
     std::vector<long double> badness_;
-    std::vector<std::optional<Vector>> best_;
-    std::vector<bool> is_known_;
-    Path upper_ = 0;
 };
 
 /// All triangulations, one by one.
 class Enumeration {
   public:
-    Enumeration(const Table& table, const std::function<void(const std::vector<Triple>&)>& visit)
+    Enumeration(const FaceTable& table, const std::function<void(const std::vector<Triple>&)>& visit)
         : table_(table), visit_(visit) {
         const std::size_t n = table.size();
         for (std::size_t a = 0; a < n; ++a) {
@@ -362,7 +202,7 @@ class Enumeration {
         open_ = open;
     }
 
-    const Table& table_;
+    const FaceTable& table_;
     const std::function<void(const std::vector<Triple>&)>& visit_;
     std::map<std::array<std::size_t, 2>, bool> open_;  ///< directed edges and whether a face is missing left
     std::vector<std::array<std::size_t, 2>> edges_;
@@ -403,13 +243,14 @@ long double badness(Criterion criterion, Site a, Site b, Site c, Norm norm) {
 }
 
 std::vector<long double> best_badnesses(const Sites& sites, Criterion criterion, Norm norm) {
-    const Table table(sites);
-    return Sweep(table, criterion, norm).best();
+    const FaceTable table(sites);
+    const Badnesses badnesses(table, criterion, norm);
+    return Sweep(table, badnesses).best();
 }
 
 void for_each_triangulation(const Sites& sites,
                             const std::function<void(const std::vector<Triple>&)>& visit) {
-    const Table table(sites);
+    const FaceTable table(sites);
     Enumeration(table, visit).run();
 }
 
