@@ -2,7 +2,6 @@
 #define TINWRIGHT_TESTS_OPTIMAL_LENGTH_CHECKS_HPP
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <set>
@@ -28,27 +27,10 @@ inline tinwright::OptimizeReport optimize_length(tinwright::Tin& tin, tinwright:
     return tinwright::optimize(tin, options);
 }
 
-inline long double length_of(tinwright::Norm norm, tinwright::Key2 a, tinwright::Key2 b) {
-    const long double x = std::fabs(static_cast<long double>(a.x) - static_cast<long double>(b.x));
-    const long double y = std::fabs(static_cast<long double>(a.y) - static_cast<long double>(b.y));
-    if (norm.is_maximum()) {
-        return std::max(x, y);
-    }
-    const auto power = static_cast<long double>(norm.power());
-    return std::pow(std::pow(x, power) + std::pow(y, power), 1 / power);
-}
-
 /// The length of the longest edge of the terrain, CRS units.
 inline double longest_of(const tinwright::Tin& tin, tinwright::Norm norm) {
-    long double longest = 0;
-    for (std::uint32_t f = 0; f < tin.mesh.slot_count(); ++f) {
-        for (unsigned i = 0; tin.mesh.is_terrain({f}) && i < 3; ++i) {
-            const tinwright::HalfEdgeId h = tinwright::half_edge({f}, i);
-            longest = std::max(
-                longest, length_of(norm, tin.key(tin.mesh.origin(h)), tin.key(tin.mesh.destination(h))));
-        }
-    }
-    return static_cast<double>(longest) * tin.lattice.quantum();
+    constexpr auto kLength = tinwright::Criterion::Length;
+    return report_of(tin, kLength, badnesses_of(tin, kLength, Faces::Terrain, norm).front());
 }
 
 inline oracle::Edge ascending(std::uint32_t a, std::uint32_t b) { return {std::min(a, b), std::max(a, b)}; }

@@ -11,6 +11,7 @@
 
 #include "support/cases.hpp"
 #include "support/length_tins.hpp"
+#include "support/oracles.hpp"
 #include "support/random_tins.hpp"
 #include "support/tins.hpp"
 

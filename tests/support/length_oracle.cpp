@@ -124,12 +124,6 @@ class Tracer {
 
 }  // namespace
 
-int compare_lengths(Norm norm, Key2 a, Key2 b, Key2 c, Key2 d) {
-    const Integer first = power_of_length(norm, a, b);
-    const Integer second = power_of_length(norm, c, d);
-    return first < second ? -1 : first > second ? 1 : 0;
-}
-
 LengthRanks::LengthRanks(Norm norm, std::span<const Key2> keys)
     : size_(keys.size()), rank_(size_ * size_, 0), place_(size_ * size_, 0) {
     using Pair = std::pair<std::array<Integer, 2>, Edge>;

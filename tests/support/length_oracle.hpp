@@ -18,10 +18,6 @@
 /// by their definitions. Shares no code with the library but its types.
 namespace tinwright_tests::oracle {
 
-/// Sign of the length of a b less that of c d: sums of powers, in integers of any length.
-int compare_lengths(tinwright::Norm norm, tinwright::Key2 a, tinwright::Key2 b, tinwright::Key2 c,
-                    tinwright::Key2 d);
-
 /// Places of all pairs of a few points in a row, shortest first. O(n^2 log n), also in memory.
 class LengthRanks {
   public:
