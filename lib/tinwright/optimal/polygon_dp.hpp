@@ -22,7 +22,7 @@ namespace tinwright {
 enum class PolygonCost : std::uint8_t { Maximum, Sum };
 
 /// The measure of the face with its corners at these positions of the ring, ascending, which is
-/// counter-clockwise. Infinity or NaN forbids the face.
+/// counter-clockwise. Infinity or NaN forbids the face. For lengths and criteria: `ring_measures.hpp`.
 ///
 /// A function object, so that the algorithm is compiled once and stays out of the header: next to a measure
 /// and a predicate the indirect call is small, and most faces are ruled out before they are measured.
@@ -97,8 +97,9 @@ class PolygonTable {
 /// edge once in each direction (a crack, [tan1993, Fig. 3.1]). All faces have positive area, decided exactly.
 /// Of equal costs the triangulation is taken whose middle corners come first, so the result is unique.
 ///
-/// The minimum-weight triangulation is the one of least sum when a face measures half its perimeter: an inner
-/// edge is counted half by each of its two faces, and the ring's own edges half whatever the faces.
+/// The minimum-weight triangulation is the one of least sum when a face measures half its perimeter
+/// (`half_perimeter`): an inner edge is counted half by each of its two faces, and the ring's own edges half
+/// whatever the faces.
 ///
 /// Time O(n^3), less where many faces are forbidden; memory 8 n^2 bytes, none if the edge from the last
 /// vertex to the first has no face that is allowed. `progress` may throw Cancelled.
