@@ -49,6 +49,7 @@ void CommandTin::setup(const std::vector<std::string>& arguments) {
     graph.add_to(*parser);
     lines.add_sources_to(*parser);
     triangulation.add_to(*parser, "convex");
+    parser->get_option("--norm")->group("Options")->description("of lengths: l1|l2 (default)|linf|lp:P");
     lines.add_constraints_to(*parser);
     lines.add_fitting_to(*parser);
     crs.add_to(*parser);

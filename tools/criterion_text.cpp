@@ -118,11 +118,11 @@ std::string counts_line(const OptimizeReport& counts) {
 
 std::string polygons_line(const LengthReport& length) {
     if (length.polygons == 0) {
-        return "the relative neighbourhood graph leaves nothing to choose";
+        return "relative neighbours and border leave nothing to choose";
     }
-    return std::to_string(length.changed) + " of " + counted(length.polygons, "polygon", "polygons") +
-           " of the relative neighbourhood graph triangulated anew, up to " +
-           counted(length.largest, "side", "sides") + " each";
+    return counted(length.polygons, "polygon", "polygons") + " between relative neighbours, up to " +
+           counted(length.largest, "side", "sides") + " each, " + std::to_string(length.changed) +
+           " triangulated anew";
 }
 
 /// Why slopes are not rise over run in one unit; empty if they are.

@@ -97,8 +97,7 @@ JsonValue location_json(const Point3& p) { return JsonValue::array_of({p.x, p.y,
 }  // namespace
 
 void OptimalityOptions::add_to(CLI::App& parser) {
-    add_value(parser, "--criterion", criterion_text, "NAME",
-              "prove again: slope|height|angle|eccentricity|length");
+    add_value(parser, "--criterion", criterion_text, "NAME", "prove again: slope|height|angle|length|...");
     add_value(parser, "--norm", norm_text, "NORM", "of length (default: as the file says, or l2)");
     add_value(parser, "--worst", worst_text, "COUNT", "for so many of the worst faces (default 100)");
     parser.add_flag("--all", all, "for all faces; for length: polygons of any size");

@@ -108,10 +108,9 @@ std::optional<int> parse_order(const std::string& text) {
 }  // namespace
 
 void TriangulationOptions::add_to(CLI::App& parser, const std::string& default_domain) {
-    add_value(parser, "--criterion", criterion_text, "NAME",
-              "delaunay|slope|height|angle|length|..., see the manual");
+    add_value(parser, "--criterion", criterion_text, "NAME", "slope|height|angle|length|..., see the manual");
     add_value(parser, "--scope", scope_text, "SCOPE", "max|vector|top:P%|above:VALUE (default top:0.5%)");
-    add_value(parser, "--norm", norm_text, "NORM", "for length: l1|l2 (default)|linf|lp:P");
+    add_value(parser, "--norm", norm_text, "NORM", "for length: l1|l2 (default)|linf|lp:P")->group("");
     add_value(parser, "--delaunay-order", order_text, "K|none", "for normal-* (default 3)");
     add_value(parser, "--budget", budget_text, "SECONDS", "stop optimising after this time");
     add_value(parser, "--domain", domain_text, "RULE",

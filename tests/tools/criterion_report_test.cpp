@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include "surface_input.hpp"
+
 namespace {
 
 using namespace tinwright;
@@ -33,6 +35,24 @@ OptimizeReport sample_result() {
     result.candidates = 7890;
     result.frozen = 12;
     return result;
+}
+
+OptimizeReport length_result() {
+    OptimizeReport result;
+    result.before = {105.5, 88.25};
+    result.after = {98, 80.5};
+    result.proof = Proof::Theorem;
+    result.tries = 345;
+    result.length = LengthReport{1000, 345, 3, 25, 12};
+    return result;
+}
+
+TriangulationOptions length_options(const std::string& norm) {
+    TriangulationOptions options;
+    options.criterion_text = "length";
+    options.norm_text = norm;
+    options.finish(DomainRule::Kind::Convex);
+    return options;
 }
 
 io::Crs in_metres() { return io::Crs::parse("EPSG:25832"); }
@@ -69,6 +89,57 @@ TEST_SUITE("tools/criterion_report") {
         CHECK(unit("height", nowhere()) == "CRS unit");
         CHECK(unit("angle", nowhere()) == "degree");
         CHECK(unit("slope", in_metres()) == "ratio");
+    }
+
+    TEST_CASE("of length people read what the longest edge became, in which norm, and that it is proven") {
+        CHECK(criterion_lines(
+                  make_criterion_report(length_options("l1"), with(length_result()), in_metres())) ==
+              std::vector<std::string>{
+                  "length, norm l1, scope max",
+                  "longest edge 105.5 -> 98 metre (interior 88.25 -> 80.5 metre)",
+                  "proven: no triangulation has a shorter longest edge",
+                  "345 polygons between relative neighbours, up to 25 sides each, 12 triangulated anew"});
+        OptimizeReport same = length_result();
+        same.after = same.before;
+        same.length = LengthReport{1000, 0, 0, 0, 0};
+        const auto lines =
+            criterion_lines(make_criterion_report(length_options(""), with(same), in_metres()));
+        CHECK(lines.at(0) == "length, norm l2, scope max");
+        CHECK(lines.at(2) ==
+              "proven: no triangulation has a shorter longest edge; the Delaunay TIN's is as short");
+        CHECK(lines.at(3) == "relative neighbours and border leave nothing to choose");
+        OptimizeReport stopped = length_result();
+        stopped.proof = Proof::None;
+        stopped.stopped_by = StoppedBy::Budget;
+        CHECK(criterion_lines(make_criterion_report(length_options(""), with(stopped), in_metres())).at(2) ==
+              "not proven the shortest possible: stopped by the budget");
+        CHECK(criterion_warnings(length_options(""), with(stopped), nowhere(), "") ==
+              std::vector<std::string>{"the budget of 0 s ran out: the TIN is valid but its longest edge is "
+                                       "not proven the shortest possible; give a longer --budget"});
+    }
+
+    TEST_CASE("a file keeps the norm and what the polygons were like") {
+        const CriterionReport report =
+            make_criterion_report(length_options("lp:3"), with(length_result()), in_metres());
+        const io::TinMetadata metadata = criterion_metadata(report);
+        CHECK(metadata_value(metadata, "TINWRIGHT_NORM") == "lp:3");
+        CHECK(metadata_value(metadata, "TINWRIGHT_LARGEST_POLYGON") == "25");
+        CHECK(metadata_value(metadata, "TINWRIGHT_INSERTIONS").empty());
+        const CriterionReport read = read_criterion_report(metadata);
+        CHECK(read.edge_norm() == Norm::lp(3));
+        CHECK(criterion_json(read).text() == criterion_json(report).text());
+        CHECK(criterion_metadata(read) == metadata);
+        const std::string json = criterion_json(report).text();
+        for (const char* key :
+             {"\"norm\": \"lp:3\"", "\"scope\": \"max\"", "\"worst\": 98", "\"worst_delaunay\": 105.5",
+              "\"proven\": \"theorem\"", "\"graph_edges\": 1000", "\"polygons\": 345", "\"incomplete\": 3",
+              "\"largest_polygon\": 25", "\"changed\": 12"}) {
+            CAPTURE(key);
+            CHECK(json.find(key) != std::string::npos);
+        }
+        CHECK(json.find("insertions") == std::string::npos);
+        CHECK(read_criterion_report({{"TINWRIGHT_CRITERION", "length"}, {"TINWRIGHT_NORM", "l7"}})
+                  .edge_norm() == Norm());
     }
 
     TEST_CASE("every kind of proof, and of none, has its words") {

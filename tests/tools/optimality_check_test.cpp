@@ -64,14 +64,15 @@ TEST_SUITE("tools/optimality_check") {
 
     TEST_CASE("wrong command lines are refused with one line that says what to do") {
         CHECK(complaint({"a.gpkg", "--criterion", "delaunay"}) ==
-              "--criterion takes slope, height, angle or eccentricity, not \"delaunay\"");
+              "--criterion takes slope, height, angle, eccentricity or length, not \"delaunay\"");
         for (const std::vector<std::string>& option :
-             {std::vector<std::string>{"--worst", "5"}, {"--all"}, {"--reach", "5"}}) {
+             {std::vector<std::string>{"--worst", "5"}, {"--all"}, {"--reach", "5"}, {"--norm", "l1"}}) {
             CAPTURE(option.front());
             std::vector<std::string> arguments{"a.gpkg"};
             arguments.insert(arguments.end(), option.begin(), option.end());
             CHECK(complaint(arguments) ==
-                  option.front() + " is for --criterion: say which, slope, height, angle or eccentricity");
+                  option.front() +
+                      " is for --criterion: say which, slope, height, angle, eccentricity or length");
         }
         CHECK(complaint({"a.gpkg", "--criterion", "slope", "--worst", "5", "--all"}) ==
               "--worst and --all exclude each other");
@@ -81,6 +82,16 @@ TEST_SUITE("tools/optimality_check") {
               "--worst needs a whole number from 1 up, not \"many\"");
         CHECK(complaint({"a.gpkg", "--criterion", "slope", "--reach", "1"}) ==
               "--reach (unless all) needs a whole number from 2 up, not \"1\"");
+        CHECK(complaint({"a.gpkg", "--criterion", "slope", "--norm", "l1"}) ==
+              "--norm says how edges are measured: it is for --criterion length");
+        CHECK(complaint({"a.gpkg", "--criterion", "length", "--norm", "l0"}) ==
+              "--norm takes l1, l2, linf or lp:P with a whole number P from 1 to 64, not \"l0\"");
+        for (const std::string option : {"--worst", "--reach"}) {
+            CHECK(complaint({"a.gpkg", "--criterion", "length", option, "5"}) ==
+                  option +
+                      " does not apply to --criterion length, which is about the longest edge; --all looks "
+                      "at polygons of any size");
+        }
     }
 
     TEST_CASE("a hundred faces are examined where the file says nothing of a scope") {
@@ -142,5 +153,34 @@ TEST_SUITE("tools/optimality_check") {
                                                                       {"TINWRIGHT_STOPPED_BY", "budget"}}),
                                                          options_of({"--criterion", "slope"}), {});
         CHECK(optimality_verdict(report).ends_with("; the file says that it was not finished"));
+    }
+
+    // Of the rhombus one diagonal is short and one long.
+    TEST_CASE("a longest edge that need not be so long is listed with the length that can be had") {
+        io::TinFile rhombus;
+        rhombus.vertices = {{0, 0, 0}, {50, -10, 0}, {100, 0, 0}, {50, 10, 0}};
+        rhombus.corners = {0, 1, 2, 0, 2, 3};
+        rhombus.face_ids = {7, 8};
+        const OptimalityReport broken = check_optimality(rhombus, options_of({"--criterion", "length"}), {});
+        REQUIRE(broken.length.has_value());
+        CHECK(broken.improvable() == 1);
+        CHECK(broken.listed.front().face == 7);
+        CHECK(optimality_verdict(broken) ==
+              "length, norm l2: the longest edge, 100 from (0, 0) to (100, 0), can be 50.9902 (1 polygon "
+              "triangulated anew); the file does not tell that it was made for this criterion");
+        CHECK(improvable_lines(broken, "a.gpkg") ==
+              "a.gpkg: face 7: longest edge, 100 from (0, 0) to (100, 0), can be 50.9902\n");
+
+        rhombus.corners = {0, 1, 3, 1, 2, 3};
+        rhombus.metadata = {{"TINWRIGHT_CRITERION", "length"}, {"TINWRIGHT_NORM", "l1"}};
+        const OptimalityReport kept = check_optimality(rhombus, options_of({"--criterion", "length"}), {});
+        CHECK(kept.improvable() == 0);
+        CHECK(improvable_lines(kept, "a.gpkg").empty());
+        CHECK(optimality_verdict(kept).starts_with("length, norm l1: the longest edge, 60 from "));
+        CHECK(kept.length->certificate.is_optimal);
+        const OptimalityReport other =
+            check_optimality(rhombus, options_of({"--criterion", "length", "--norm", "linf"}), {});
+        CHECK(optimality_verdict(other).ends_with("; the file was made for norm l1"));
+        CHECK(optimality_json(other).text().find("\"made_with\": \"l1\"") != std::string::npos);
     }
 }

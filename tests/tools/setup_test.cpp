@@ -224,6 +224,113 @@ TEST_SUITE("tools/setup") {
               "--budget is for optimising: give --criterion slope, height, angle or eccentricity too");
     }
 
+    TEST_CASE("length has a norm, and no scope but the longest edge") {
+        const auto canonical = [](std::vector<std::string> more) {
+            CommandTin tin;
+            more.insert(more.begin(), {"a.csv", "-o", "b.gpkg", "--criterion", "length"});
+            tin.setup(more);
+            return tin.triangulation.canonical();
+        };
+        const std::string rest = " --domain convex --duplicates error";
+        CHECK(canonical({}) == "--criterion length --norm l2 --scope max" + rest);
+        CHECK(canonical({"--scope", "max", "--norm", "l1"}) ==
+              "--criterion length --norm l1 --scope max" + rest);
+        CHECK(canonical({"--norm", "linf", "--budget", "2"}) ==
+              "--criterion length --norm linf --scope max --budget 2" + rest);
+        CHECK(canonical({"--norm", "lp:3"}) == "--criterion length --norm lp:3 --scope max" + rest);
+        CHECK(canonical({"--norm", "lp:2"}) == "--criterion length --norm l2 --scope max" + rest);
+        CHECK(canonical({"--norm", "lp:64"}) == "--criterion length --norm lp:64 --scope max" + rest);
+        CommandGrid grid;
+        grid.setup({"a.csv", "-o", "b.tif", "--criterion", "length", "--norm", "l1"});
+        REQUIRE(grid.triangulation.optimize.has_value());
+        CHECK(grid.triangulation.optimize->criterion == Criterion::Length);
+        CHECK(grid.triangulation.optimize->norm == Norm::lp(1));
+        CHECK(grid.triangulation.optimize->scope.kind == Scope::Kind::Max);
+    }
+
+    TEST_CASE("norms and scopes that make no sense are refused") {
+        const auto refusal = [](std::vector<std::string> more) {
+            more.insert(more.begin(), {"a.csv", "-o", "b"});
+            return complaint<CommandTin>(more);
+        };
+        for (const std::string norm :
+             {"l3", "lp", "lp:", "lp:0", "lp:65", "lp:2.5", "lp:-1", "L2", "euclid"}) {
+            CAPTURE(norm);
+            CHECK(refusal({"--criterion", "length", "--norm", norm}) ==
+                  "--norm takes l1, l2, linf or lp:P with a whole number P from 1 to 64, not \"" + norm +
+                      "\"");
+        }
+        for (const std::string criterion : {"delaunay", "slope", "normal-angle"}) {
+            CAPTURE(criterion);
+            CHECK(refusal({"--criterion", criterion, "--norm", "l2"}) ==
+                  "--norm says how edges are measured: it is for --criterion length, and for --graph mst and "
+                  "rng of tinwright tin");
+        }
+        for (const std::string scope : {"vector", "top:5%", "above:10"}) {
+            CAPTURE(scope);
+            CHECK(
+                refusal({"--criterion", "length", "--scope", scope}) ==
+                "--scope " + scope +
+                    " does not apply to --criterion length, which makes the longest edge as short as it can "
+                    "be and knows no order of the others: leave --scope out, or give max");
+        }
+        CHECK(
+            refusal({"--budget", "5"}) ==
+            "--budget is for optimising: give --criterion slope, height, angle, eccentricity or length too");
+    }
+
+    TEST_CASE("a graph is told by its name and norm") {
+        const auto canonical = [](std::vector<std::string> more) {
+            CommandTin tin;
+            more.insert(more.begin(), {"a.csv", "-o", "b.gpkg"});
+            tin.setup(more);
+            return tin.graph.canonical() + " " + tin.triangulation.canonical_samples();
+        };
+        CHECK(canonical({"--graph", "mst"}) == "--graph mst --norm l2 --duplicates error");
+        CHECK(canonical({"--graph", "rng", "--norm", "lp:1", "--duplicates", "mean"}) ==
+              "--graph rng --norm l1 --duplicates mean");
+        CHECK(canonical({"--graph", "gabriel", "--norm", "l2"}) ==
+              "--graph gabriel --norm l2 --duplicates error");
+        CommandTin tin;
+        tin.setup({"a.csv", "-o", "b.gpkg"});
+        CHECK_FALSE(tin.graph.kind.has_value());
+    }
+
+    TEST_CASE("a graph takes no options of TINs") {
+        const auto refusal = [](std::vector<std::string> more) {
+            more.insert(more.begin(), {"a.csv", "-o", "b.gpkg", "--graph", "rng"});
+            return complaint<CommandTin>(more);
+        };
+        CHECK(refusal({"--norm", "linf", "--duplicates", "mean", "--nln", "near", "--co", "A=1", "-j",
+                       "2"}) == "fine");
+        for (const std::vector<std::string>& option : {std::vector<std::string>{"--criterion", "length"},
+                                                       {"--scope", "max"},
+                                                       {"--delaunay-order", "2"},
+                                                       {"--budget", "5"},
+                                                       {"--domain", "trimmed"},
+                                                       {"--max-edge", "5"},
+                                                       {"--breaklines", "b.gpkg"},
+                                                       {"--boundary", "b.gpkg"},
+                                                       {"--holes", "b.gpkg"},
+                                                       {"--constraints", "conforming"},
+                                                       {"--snap", "1"},
+                                                       {"--conflicts", "c.gpkg"},
+                                                       {"--geometry", "polygon"},
+                                                       {"--ids"}}) {
+            CAPTURE(option.front());
+            CHECK(refusal(option) ==
+                  "--graph writes lines between samples, and no TIN: " + option.front() + " does not apply");
+        }
+        CHECK(complaint<CommandTin>({"a.csv", "-o", "b.gpkg", "--graph", "urquhart"}) ==
+              "--graph takes mst, rng or gabriel, not \"urquhart\"");
+        CHECK(complaint<CommandTin>({"a.csv", "-o", "b.gpkg", "--graph", "gabriel", "--norm", "l1"}) ==
+              "--graph gabriel is defined by Euclidean disks: --norm l1 is for --graph mst and rng");
+        CHECK(complaint<CommandTin>({"-o", "b.gpkg", "--graph", "mst"}) ==
+              "no source is given: name a file with points, such as survey.csv");
+        CHECK(complaint<CommandTin>({"a.csv", "--graph", "mst"}) ==
+              "no output is given: name it with -o FILE");
+    }
+
     TEST_CASE("data-dependent criteria have an order and no scope") {
         const auto canonical = [](std::vector<std::string> more) {
             CommandTin tin;
@@ -254,7 +361,7 @@ TEST_SUITE("tools/setup") {
         CHECK(
             complaint<CommandCheck>({"a.gpkg", "--criterion", "normal-jump"}) ==
             "--criterion normal-jump makes a TIN by a heuristic, of which there is nothing to prove; slope, "
-            "height, angle and eccentricity can be proven");
+            "height, angle, eccentricity and length can be proven");
     }
 
     TEST_CASE("info counts conflicts instead of failing on them") {
@@ -276,9 +383,9 @@ TEST_SUITE("tools/setup") {
               "--domain takes convex, trimmed or concave:LENGTH, not \"round\"");
         CHECK(complaint<CommandTin>({"a.csv", "-o", "b", "--domain", "concave:-1"}) ==
               "--domain concave:LENGTH needs a number above zero, not \"-1\"");
-        CHECK(complaint<CommandTin>({"a.csv", "-o", "b", "--criterion", "length"}) ==
-              "--criterion takes delaunay, slope, height, angle, eccentricity, normal-angle or normal-jump, "
-              "not \"length\"");
+        CHECK(complaint<CommandTin>({"a.csv", "-o", "b", "--criterion", "weight"}) ==
+              "--criterion takes delaunay, slope, height, angle, eccentricity, length, normal-angle or "
+              "normal-jump, not \"weight\"");
         CHECK(complaint<CommandTin>({"a.csv", "-o", "b", "--duplicates", "any"}) ==
               "--duplicates takes error, first, last, min, max, mean or median, not \"any\"");
         CHECK(complaint<CommandTin>({"a.csv", "-o", "b", "--duplicate-tolerance", "-1"}) ==
