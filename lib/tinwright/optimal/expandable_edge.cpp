@@ -5,37 +5,34 @@
 
 namespace tinwright::internal {
 
-std::optional<ExpandableEdgeSearch::Diagonal> ExpandableEdgeSearch::find(VertexId a, VertexId b,
-                                                                         const Poll& poll) {
+std::optional<ExpandableEdgeSearch::Diagonal> ExpandableEdgeSearch::find_among_many(VertexPair before,
+                                                                                    const Poll& poll) {
     known_.clear();
     for (std::uint32_t position = 0; position < polygon_.size(); ++position) {
         if (!poll()) {
             return std::nullopt;
         }
-        polygon_.look(position, a, b, sights_);
+        polygon_.look(position, before, sights_);
         note(position);
     }
     std::sort(known_.begin(), known_.end(), [](const HalfKnown& x, const HalfKnown& y) {
-        return std::tie(x.low, x.high, x.is_from_high) < std::tie(y.low, y.high, y.is_from_high);
+        return std::tie(x.edge.low, x.edge.high, x.is_from_high) <
+               std::tie(y.edge.low, y.edge.high, y.is_from_high);
     });
     candidates_ += known_.size() / 2;
 
     std::optional<Diagonal> best;
     for (std::size_t k = 0; k + 1 < known_.size(); k += 2) {
-        const HalfKnown& of_low = known_[k];
-        const HalfKnown& of_high = known_[k + 1];
-        const auto is_shorter = [&](const Diagonal& than) {
-            return polygon_.order().is_shorter(polygon_.vertex(of_low.low), polygon_.vertex(of_low.high),
-                                               polygon_.vertex(than.low), polygon_.vertex(than.high));
-        };
-        if (is_crossed_on_both_sides(of_low, of_high) && (!best || is_shorter(*best))) {
-            best = Diagonal{of_low.low, of_low.high};
+        const Diagonal& edge = known_[k].edge;
+        if (is_crossed_on_both_sides(known_[k], known_[k + 1]) &&
+            (!best || is_shorter(ends(edge), ends(*best)))) {
+            best = edge;
         }
     }
     return best;
 }
 
-/// Step 2: for each 2-edge from `eye` the empty lines next to it. The first and the last line are sides.
+/// Step 2 for all 2-edges from `eye`: the empty lines next to them. The first and the last line are sides.
 void ExpandableEdgeSearch::note(std::uint32_t eye) {
     const std::size_t count = sights_.size();
     behind_.assign(count, 0);
@@ -46,8 +43,10 @@ void ExpandableEdgeSearch::note(std::uint32_t eye) {
     for (std::size_t k = 0; k < count; ++k) {
         const WallPolygon::Sight& sight = sights_[k];
         if (!sight.is_left_empty && !sight.is_right_empty) {
-            known_.push_back({std::min(eye, sight.position), std::max(eye, sight.position),
-                              eye > sight.position, before, behind_[k]});
+            known_.push_back({{std::min(eye, sight.position), std::max(eye, sight.position)},
+                              eye > sight.position,
+                              before,
+                              behind_[k]});
         }
         if (sight.is_left_empty) {
             before = sight.position;
@@ -55,11 +54,80 @@ void ExpandableEdgeSearch::note(std::uint32_t eye) {
     }
 }
 
+std::optional<ExpandableEdgeSearch::Diagonal> ExpandableEdgeSearch::find_among_few(VertexPair at_least,
+                                                                                   VertexPair before) {
+    collect_pairs(at_least, before);
+    is_seen_from_.assign(polygon_.size(), false);
+    for (const Diagonal& pair : pairs_) {
+        const auto of_low = know(pair.low, pair.high, before);
+        if (!of_low) {
+            continue;
+        }
+        ++candidates_;
+        const auto of_high = know(pair.high, pair.low, before);
+        if (is_crossed_on_both_sides(*of_low, *of_high)) {
+            return pair;
+        }
+    }
+    return std::nullopt;
+}
+
+/// The pairs of corners in question, shortest first. Neighbours are among them if a side is so long.
+void ExpandableEdgeSearch::collect_pairs(VertexPair at_least, VertexPair before) {
+    pairs_.clear();
+    for (std::uint32_t low = 0; low + 2 < polygon_.size(); ++low) {
+        for (std::uint32_t high = low + 2; high < polygon_.size(); ++high) {
+            const VertexPair pair{polygon_.vertex(low), polygon_.vertex(high)};
+            if (pair.first != pair.second && is_shorter(pair, before) && !is_shorter(pair, at_least)) {
+                pairs_.push_back({low, high});
+            }
+        }
+    }
+    std::sort(pairs_.begin(), pairs_.end(),
+              [this](const Diagonal& x, const Diagonal& y) { return is_shorter(ends(x), ends(y)); });
+}
+
+/// Steps 1 and 2 for the line from `eye` to the corner `other`; empty if there is none, or it is no 2-edge.
+std::optional<ExpandableEdgeSearch::HalfKnown> ExpandableEdgeSearch::know(std::uint32_t eye,
+                                                                          std::uint32_t other,
+                                                                          VertexPair before) {
+    const std::vector<WallPolygon::Sight>& sights = sights_from(eye, before);
+    const auto found = std::find_if(sights.begin(), sights.end(),
+                                    [&](const auto& sight) { return sight.position == other; });
+    if (found == sights.end() || found->is_left_empty || found->is_right_empty) {
+        return std::nullopt;
+    }
+    auto nearest_before = found;
+    while (!nearest_before->is_left_empty) {
+        --nearest_before;
+    }
+    auto nearest_behind = found;
+    while (!nearest_behind->is_right_empty) {
+        ++nearest_behind;
+    }
+    return HalfKnown{{std::min(eye, other), std::max(eye, other)},
+                     eye > other,
+                     nearest_before->position,
+                     nearest_behind->position};
+}
+
+const std::vector<WallPolygon::Sight>& ExpandableEdgeSearch::sights_from(std::uint32_t eye,
+                                                                         VertexPair before) {
+    if (sights_from_.size() <= eye) {
+        sights_from_.resize(polygon_.size());
+    }
+    if (!is_seen_from_[eye]) {
+        is_seen_from_[eye] = true;
+        polygon_.look(eye, before, sights_from_[eye]);
+    }
+    return sights_from_[eye];
+}
+
 /// Step 3: on each side of the 2-edge the empty lines from its two ends meet or cross; by the order of their
 /// other ends along the ring (Crossing Lemma).
 bool ExpandableEdgeSearch::is_crossed_on_both_sides(const HalfKnown& of_low, const HalfKnown& of_high) const {
     const std::uint32_t n = polygon_.size();
-    const auto way = [&](std::uint32_t position) { return (position + n - of_low.high) % n; };
+    const auto way = [&](std::uint32_t position) { return (position + n - of_low.edge.high) % n; };
     return of_high.behind <= of_low.before && way(of_low.behind) <= way(of_high.before);
 }
 

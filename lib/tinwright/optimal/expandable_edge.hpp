@@ -26,14 +26,18 @@ class ExpandableEdgeSearch {
 
     explicit ExpandableEdgeSearch(WallPolygon& polygon) : polygon_(polygon) {}
 
-    /// The shortest expandable 2-edge among those that come before the pair a b, which is no shorter than any
-    /// side; empty if there is none, or when stopped.
+    /// The shortest expandable 2-edge among those that come before a pair of vertices which is no shorter
+    /// than any side; empty if there is none, or when stopped.
     ///
-    /// Only lines of sight before a b are looked at. That leaves the result as it is: the faces at an
+    /// Only lines of sight before the pair are looked at. That leaves the result as it is: the faces at an
     /// expandable edge lie in its lune, so their edges, which alone can make it pass the test of step 3, are
     /// shorter than it is; and what passes with fewer lines passes with all. O(n^2) for n sides, less where
-    /// little is seen within that length; memory for the 2-edges before a b.
-    std::optional<Diagonal> find(VertexId a, VertexId b, const Poll& poll);
+    /// little is seen within that length; memory for the 2-edges before the pair.
+    std::optional<Diagonal> find_among_many(VertexPair before, const Poll& poll);
+    /// The same, for few sides: pairs of corners are tried shortest first, from `at_least` on, which no
+    /// triangulation without an edge like `before` can do without. As a rule one of the first is the one, and
+    /// only what its ends see has to be found.
+    std::optional<Diagonal> find_among_few(VertexPair at_least, VertexPair before);
 
     /// 2-edges that came into question, over all calls.
     [[nodiscard]] std::size_t candidates() const { return candidates_; }
@@ -42,20 +46,31 @@ class ExpandableEdgeSearch {
     /// What is known of a 2-edge at one end: among the lines of sight from there, the nearest on either side
     /// of it that are empty towards it.
     struct HalfKnown {
-        std::uint32_t low;
-        std::uint32_t high;
+        Diagonal edge;
         bool is_from_high;
         std::uint32_t before;  ///< position it leads to, clockwise of the 2-edge
         std::uint32_t behind;  ///< counter-clockwise
     };
 
     void note(std::uint32_t eye);
+    [[nodiscard]] std::optional<HalfKnown> know(std::uint32_t eye, std::uint32_t other, VertexPair before);
+    void collect_pairs(VertexPair at_least, VertexPair before);
+    [[nodiscard]] const std::vector<WallPolygon::Sight>& sights_from(std::uint32_t eye, VertexPair before);
+    [[nodiscard]] bool is_shorter(VertexPair x, VertexPair y) const {
+        return polygon_.order().is_shorter(x.first, x.second, y.first, y.second);
+    }
+    [[nodiscard]] VertexPair ends(const Diagonal& diagonal) const {
+        return {polygon_.vertex(diagonal.low), polygon_.vertex(diagonal.high)};
+    }
     [[nodiscard]] bool is_crossed_on_both_sides(const HalfKnown& of_low, const HalfKnown& of_high) const;
 
     WallPolygon& polygon_;
     std::vector<WallPolygon::Sight> sights_;
     std::vector<std::uint32_t> behind_;
     std::vector<HalfKnown> known_;
+    std::vector<Diagonal> pairs_;
+    std::vector<std::vector<WallPolygon::Sight>> sights_from_;  // by position; of no use where not seen yet
+    std::vector<bool> is_seen_from_;
     std::size_t candidates_ = 0;
 };
 

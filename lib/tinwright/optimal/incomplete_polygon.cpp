@@ -41,8 +41,8 @@ bool IncompletePolygon::find_apex(const Base& base, std::uint32_t& apex) {
     const auto way = [&](std::uint32_t position) { return (position + n - base.i) % n; };
     const VertexId p = polygon_.vertex(base.i);
     const VertexId q = polygon_.vertex(base.j);
-    polygon_.look(base.i, p, q, from_i_);
-    polygon_.look(base.j, p, q, from_j_);
+    polygon_.look(base.i, {p, q}, from_i_);
+    polygon_.look(base.j, {p, q}, from_j_);
     // Both lists run along the ring: the one through the part first, the other through it last.
     auto of_j = std::find_if(from_j_.begin(), from_j_.end(), [&](const auto& sight) {
         return way(sight.position) < way(base.j) && sight.position != base.i;

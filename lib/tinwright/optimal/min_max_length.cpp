@@ -17,6 +17,7 @@
 #include "tinwright/delaunay/length_order.hpp"
 #include "tinwright/delaunay/proximity_graphs.hpp"
 #include "tinwright/geometry/error.hpp"
+#include "tinwright/geometry/predicates.hpp"
 #include "tinwright/mesh/mesh_edit.hpp"
 #include "tinwright/optimal/expandable_edge.hpp"
 #include "tinwright/optimal/incomplete_polygon.hpp"
@@ -30,10 +31,9 @@ namespace {
 using internal::ExpandableEdgeSearch;
 using internal::IncompletePolygon;
 using internal::Poll;
+using internal::VertexPair;
 using internal::WallPolygon;
 using internal::Walls;
-
-using VertexPair = std::pair<VertexId, VertexId>;
 
 /// A polygon that is yet to be looked at, and what became of it.
 struct Task {
@@ -57,6 +57,7 @@ class PolygonOptimizer {
     [[nodiscard]] std::size_t candidates() const { return search_.candidates(); }
 
   private:
+    [[nodiscard]] Key2 key(VertexId v) const { return order_.keys()[v.value]; }
     [[nodiscard]] VertexPair ends(HalfEdgeId h) const {
         return {polygon_.mesh().origin(h), polygon_.mesh().destination(h)};
     }
@@ -67,9 +68,10 @@ class PolygonOptimizer {
         return order_.compare(x.first, x.second, y.first, y.second) < 0;
     }
     [[nodiscard]] VertexPair longest_side() const;
-    [[nodiscard]] VertexPair longest_diagonal() const;
+    [[nodiscard]] HalfEdgeId longest_diagonal() const;
+    [[nodiscard]] std::optional<VertexPair> bound_without(HalfEdgeId longest) const;
     [[nodiscard]] std::optional<std::uint32_t> find_shortest_long_side();
-    bool improve_complete(VertexPair longest, Task& task, const Poll& poll);
+    bool improve_complete(HalfEdgeId longest, Task& task, const Poll& poll);
 
     const LengthOrder& order_;
     std::span<const std::uint8_t> in_graph_;
@@ -83,11 +85,11 @@ class PolygonOptimizer {
 void PolygonOptimizer::run(Task& task, const Poll& poll) {
     polygon_.trace(task.wall);
     const std::optional<std::uint32_t> long_side = find_shortest_long_side();
-    const VertexPair longest = longest_diagonal();
+    const HalfEdgeId longest = longest_diagonal();
     task.is_incomplete = long_side.has_value();
     if (!long_side) {
         task.is_done = improve_complete(longest, task, poll);
-    } else if (is_really_shorter(longest_side(), longest)) {
+    } else if (is_really_shorter(longest_side(), ends(longest))) {
         task.is_done =
             parts_.triangulate(polygon_.after(*long_side), *long_side,
                                CavityFace::Across::rim(polygon_.side(*long_side)), task.faces, poll);
@@ -103,9 +105,16 @@ void PolygonOptimizer::run(Task& task, const Poll& poll) {
 }
 
 /// Whether it was not stopped.
-bool PolygonOptimizer::improve_complete(VertexPair longest, Task& task, const Poll& poll) {
-    const auto best = search_.find(longest.first, longest.second, poll);
-    if (!best || !is_really_shorter({polygon_.vertex(best->low), polygon_.vertex(best->high)}, longest)) {
+bool PolygonOptimizer::improve_complete(HalfEdgeId longest, Task& task, const Poll& poll) {
+    constexpr std::uint32_t kMany = 64;
+    const VertexPair pair = ends(longest);
+    std::optional<ExpandableEdgeSearch::Diagonal> best;
+    if (polygon_.size() > kMany) {
+        best = search_.find_among_many(pair, poll);
+    } else if (const auto bound = bound_without(longest)) {
+        best = search_.find_among_few(*bound, pair);
+    }
+    if (!best || !is_really_shorter({polygon_.vertex(best->low), polygon_.vertex(best->high)}, pair)) {
         return poll();
     }
     const auto other_part = [&] { return CavityFace::Across::inner(0, 2); };
@@ -122,15 +131,49 @@ VertexPair PolygonOptimizer::longest_side() const {
     return longest;
 }
 
-VertexPair PolygonOptimizer::longest_diagonal() const {
-    std::optional<VertexPair> longest;
+/// Without its longest diagonal p q a polygon has a face at p, and one at q, whose opposite edge crosses p q,
+/// and no edge as long. Of all triangles that might be those faces the least in longest edge is taken, and
+/// the longer of the two edges is the bound; where there are no such triangles, the diagonal cannot be
+/// avoided. That spares most polygons that keep their faces the search.
+std::optional<VertexPair> PolygonOptimizer::bound_without(HalfEdgeId longest) const {
+    const VertexPair pq = ends(longest);
+    const std::uint32_t from = walls_.position[longest.value];
+    const std::uint32_t to = walls_.position[next(longest).value];
+    std::optional<VertexPair> at_p;
+    std::optional<VertexPair> at_q;
+    const auto lessen = [&](std::optional<VertexPair>& least, VertexId corner, VertexPair xy) {
+        VertexPair edge = xy;
+        for (const VertexPair& side : {VertexPair{corner, xy.first}, VertexPair{corner, xy.second}}) {
+            edge = is_shorter(edge, side) ? side : edge;
+        }
+        if ((least ? is_shorter(edge, *least) : is_really_shorter(edge, pq)) &&
+            do_cross(key(pq.first), key(pq.second), key(xy.first), key(xy.second))) {
+            least = edge;
+        }
+    };
+    for (std::uint32_t i = polygon_.after(from); i != to; i = polygon_.after(i)) {
+        for (std::uint32_t j = polygon_.after(to); j != from; j = polygon_.after(j)) {
+            const VertexPair xy{polygon_.vertex(i), polygon_.vertex(j)};
+            if (is_really_shorter(xy, pq)) {
+                lessen(at_p, pq.first, xy);
+                lessen(at_q, pq.second, xy);
+            }
+        }
+    }
+    if (!at_p || !at_q) {
+        return std::nullopt;
+    }
+    return is_shorter(*at_p, *at_q) ? at_q : at_p;
+}
+
+HalfEdgeId PolygonOptimizer::longest_diagonal() const {
+    std::optional<HalfEdgeId> longest;
     for (const FaceId face : polygon_.faces()) {
         for (unsigned i = 0; i < 3; ++i) {
             const HalfEdgeId h = half_edge(face, i);
-            const VertexPair diagonal = ends(h);
-            if (walls_.is_wall[h.value] == 0 && diagonal.first < diagonal.second &&
-                (!longest || is_shorter(*longest, diagonal))) {
-                longest = diagonal;
+            if (walls_.is_wall[h.value] == 0 && h < polygon_.mesh().twin(h) &&
+                (!longest || is_shorter(ends(*longest), ends(h)))) {
+                longest = h;
             }
         }
     }
@@ -147,7 +190,7 @@ std::optional<std::uint32_t> PolygonOptimizer::find_shortest_long_side() {
             continue;
         }
         const auto [a, b] = ends(side);
-        polygon_.look(position, a, b, sights_);
+        polygon_.look(position, {a, b}, sights_);
         const auto is_in_half_lune = [&](const WallPolygon::Sight& sight) {
             return order_.is_in_lune(sight.vertex, a, b) &&
                    orient2d(order_.keys()[a.value], order_.keys()[b.value],

@@ -36,7 +36,8 @@ void WallPolygon::trace(HalfEdgeId wall) {
     }
 }
 
-void WallPolygon::look(std::uint32_t position, VertexId a, VertexId b, std::vector<Sight>& sights) {
+void WallPolygon::look(std::uint32_t position, VertexPair before, std::vector<Sight>& sights) {
+    const auto [a, b] = before;
     const HalfEdgeId first = sides_[position];
     const VertexId eye = mesh_->origin(first);
     const Key2 at = order_->keys()[eye.value];

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "tinwright/delaunay/corner_view.hpp"
@@ -11,6 +12,8 @@
 #include "tinwright/mesh/triangle_mesh.hpp"
 
 namespace tinwright::internal {
+
+using VertexPair = std::pair<VertexId, VertexId>;
 
 /// Which edges of a mesh are walls, and what the corners of its polygons are numbered.
 struct Walls {
@@ -55,14 +58,14 @@ class WallPolygon {
     /// Its faces, size() - 2 of them.
     [[nodiscard]] std::span<const FaceId> faces() const { return faces_; }
 
-    /// The corners that the one at `position` sees and that are nearer to it than a and b are to each other,
-    /// in counter-clockwise order, which is that of their positions. Valid until the next call on the same
-    /// `sights`. O(size) at most, less if much is farther away.
+    /// The corners that the one at `position` sees and whose distance comes before that of a pair of
+    /// vertices, in counter-clockwise order, which is that of their positions. Valid until the next call on
+    /// the same `sights`. O(size) at most, less if much is farther away.
     ///
     /// What is empty is found by a scan with a stack [tan1993, Sec. 5.6.1, step 1]: only vertices that p sees
     /// matter, since if there is one in the half-lune the first vertex on the shortest way to it from the
     /// other end is seen from both and is in it as well.
-    void look(std::uint32_t position, VertexId a, VertexId b, std::vector<Sight>& sights);
+    void look(std::uint32_t position, VertexPair before, std::vector<Sight>& sights);
 
   private:
     void find_empty_sides(VertexId eye, std::vector<Sight>& sights);
