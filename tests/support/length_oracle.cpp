@@ -273,6 +273,14 @@ std::vector<Region> regions_of(const Tin& tin, const std::set<Edge>& walls) {
     return regions;
 }
 
+std::uint32_t longest_edge(const Region& region, const LengthRanks& ranks) {
+    std::uint32_t longest = 0;
+    for (const Triple& face : region.faces) {
+        longest = std::max(longest, ranks.longest(face));
+    }
+    return longest;
+}
+
 std::vector<Edge> long_sides(const Region& region, std::span<const Key2> keys, const LengthRanks& ranks) {
     const std::vector<std::uint32_t>& ring = region.ring;
     const std::size_t n = ring.size();

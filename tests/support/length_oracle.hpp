@@ -80,6 +80,9 @@ struct Region {
 /// sorted rings; each ring begins with its first edge.
 std::vector<Region> regions_of(const tinwright::Tin& tin, const std::set<Edge>& walls);
 
+/// The rank of the longest edge of a region's faces.
+std::uint32_t longest_edge(const Region& region, const LengthRanks& ranks);
+
 /// The sides of a region whose inner half-lune holds a vertex of the region that is seen from both ends.
 std::vector<Edge> long_sides(const Region& region, std::span<const tinwright::Key2> keys,
                              const LengthRanks& ranks);

@@ -153,10 +153,26 @@ Keys near_circle(Random& random, std::size_t sides) {
     });
 }
 
+/// What is left when a third of a circle, more or less, is cut off: of two points on it that are farther
+/// apart than the cut is long, Delaunay joins some.
+Keys cut_circle(Random& random, std::size_t sides) {
+    return simple_ring([&] {
+        const double cut = 1.8 + 1.4 * random.real();
+        const double rough = 0.1 * random.real() * random.real();
+        Keys ring;
+        for (std::size_t i = 0; i < sides; ++i) {
+            const double way = (static_cast<double>(i) + 0.5 * random.real()) / static_cast<double>(sides);
+            const double angle = cut + (2 * std::numbers::pi - cut) * way;
+            ring.push_back(polar(20000, angle, 10000 * (1 - rough * random.real())));
+        }
+        return ring;
+    });
+}
+
 /// All sides of a regular polygon; lengths tie as far as keys allow.
 Keys regular(Random& random, std::size_t sides) {
-    const double radius = random.integer(0, 1) == 0 ? 1e6 : 3.0 * static_cast<double>(sides);
     return simple_ring([&] {
+        const double radius = random.integer(0, 1) == 0 ? 1e6 : 3.0 * static_cast<double>(sides);
         Keys ring;
         for (std::size_t i = 0; i < sides; ++i) {
             const double turn = static_cast<double>(i) / static_cast<double>(sides);
@@ -179,9 +195,9 @@ Keys star(Random& random, std::size_t sides) {
 
 /// Between two arcs around one centre.
 Keys bow(Random& random, std::size_t sides) {
-    const double width = 0.3 + 4 * random.real();
-    const double inner = 1 - 0.5 * random.real() * random.real();
     return simple_ring([&] {
+        const double width = 0.3 + 4 * random.real();
+        const double inner = 1 - 0.5 * random.real() * random.real();
         Keys ring;
         const std::size_t half = sides / 2;
         for (std::size_t i = 0; i < sides; ++i) {
@@ -265,6 +281,7 @@ Keys dense(Random& random, std::size_t sides) {
 constexpr std::array kRingFamilies{
     RingFamily{"near a circle", near_circle},
     RingFamily{"regular", regular},
+    RingFamily{"cut circle", cut_circle},
     RingFamily{"star", star},
     RingFamily{"bow", bow},
     RingFamily{"comb", comb},
