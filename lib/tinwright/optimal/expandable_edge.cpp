@@ -12,8 +12,7 @@ std::optional<ExpandableEdgeSearch::Diagonal> ExpandableEdgeSearch::find_among_m
         if (!poll()) {
             return std::nullopt;
         }
-        polygon_.look(position, before, sights_);
-        note(position);
+        note(position, polygon_.look(position, before, space_));
     }
     std::sort(known_.begin(), known_.end(), [](const HalfKnown& x, const HalfKnown& y) {
         return std::tie(x.edge.low, x.edge.high, x.is_from_high) <
@@ -33,15 +32,15 @@ std::optional<ExpandableEdgeSearch::Diagonal> ExpandableEdgeSearch::find_among_m
 }
 
 /// Step 2 for all 2-edges from `eye`: the empty lines next to them. The first and the last line are sides.
-void ExpandableEdgeSearch::note(std::uint32_t eye) {
-    const std::size_t count = sights_.size();
+void ExpandableEdgeSearch::note(std::uint32_t eye, std::span<const WallPolygon::Sight> sights) {
+    const std::size_t count = sights.size();
     behind_.assign(count, 0);
     for (std::size_t k = count; k-- > 1;) {
-        behind_[k - 1] = sights_[k].is_right_empty ? sights_[k].position : behind_[k];
+        behind_[k - 1] = sights[k].is_right_empty ? sights[k].position : behind_[k];
     }
     std::uint32_t before = 0;
     for (std::size_t k = 0; k < count; ++k) {
-        const WallPolygon::Sight& sight = sights_[k];
+        const WallPolygon::Sight& sight = sights[k];
         if (!sight.is_left_empty && !sight.is_right_empty) {
             known_.push_back({{std::min(eye, sight.position), std::max(eye, sight.position)},
                               eye > sight.position,
@@ -57,7 +56,7 @@ void ExpandableEdgeSearch::note(std::uint32_t eye) {
 std::optional<ExpandableEdgeSearch::Diagonal> ExpandableEdgeSearch::find_among_few(VertexPair at_least,
                                                                                    VertexPair before) {
     collect_pairs(at_least, before);
-    is_seen_from_.assign(polygon_.size(), false);
+    polygon_.keep_sights(before);
     for (const Diagonal& pair : pairs_) {
         const auto of_low = know(pair.low, pair.high, before);
         if (!of_low) {
@@ -91,7 +90,7 @@ void ExpandableEdgeSearch::collect_pairs(VertexPair at_least, VertexPair before)
 std::optional<ExpandableEdgeSearch::HalfKnown> ExpandableEdgeSearch::know(std::uint32_t eye,
                                                                           std::uint32_t other,
                                                                           VertexPair before) {
-    const std::vector<WallPolygon::Sight>& sights = sights_from(eye, before);
+    const std::span<const WallPolygon::Sight> sights = polygon_.look(eye, before, space_);
     const auto found = std::find_if(sights.begin(), sights.end(),
                                     [&](const auto& sight) { return sight.position == other; });
     if (found == sights.end() || found->is_left_empty || found->is_right_empty) {
@@ -109,18 +108,6 @@ std::optional<ExpandableEdgeSearch::HalfKnown> ExpandableEdgeSearch::know(std::u
                      eye > other,
                      nearest_before->position,
                      nearest_behind->position};
-}
-
-const std::vector<WallPolygon::Sight>& ExpandableEdgeSearch::sights_from(std::uint32_t eye,
-                                                                         VertexPair before) {
-    if (sights_from_.size() <= eye) {
-        sights_from_.resize(polygon_.size());
-    }
-    if (!is_seen_from_[eye]) {
-        is_seen_from_[eye] = true;
-        polygon_.look(eye, before, sights_from_[eye]);
-    }
-    return sights_from_[eye];
 }
 
 /// Step 3: on each side of the 2-edge the empty lines from its two ends meet or cross; by the order of their

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "tinwright/optimal/incomplete_polygon.hpp"
@@ -36,7 +37,7 @@ class ExpandableEdgeSearch {
     std::optional<Diagonal> find_among_many(VertexPair before, const Poll& poll);
     /// The same, for few sides: pairs of corners are tried shortest first, from `at_least` on, which no
     /// triangulation without an edge like `before` can do without. As a rule one of the first is the one, and
-    /// only what its ends see has to be found.
+    /// only what its ends see has to be found. Makes the polygon keep its sights.
     std::optional<Diagonal> find_among_few(VertexPair at_least, VertexPair before);
 
     /// 2-edges that came into question, over all calls.
@@ -52,10 +53,9 @@ class ExpandableEdgeSearch {
         std::uint32_t behind;  ///< counter-clockwise
     };
 
-    void note(std::uint32_t eye);
+    void note(std::uint32_t eye, std::span<const WallPolygon::Sight> sights);
     [[nodiscard]] std::optional<HalfKnown> know(std::uint32_t eye, std::uint32_t other, VertexPair before);
     void collect_pairs(VertexPair at_least, VertexPair before);
-    [[nodiscard]] const std::vector<WallPolygon::Sight>& sights_from(std::uint32_t eye, VertexPair before);
     [[nodiscard]] bool is_shorter(VertexPair x, VertexPair y) const {
         return polygon_.order().is_shorter(x.first, x.second, y.first, y.second);
     }
@@ -65,12 +65,10 @@ class ExpandableEdgeSearch {
     [[nodiscard]] bool is_crossed_on_both_sides(const HalfKnown& of_low, const HalfKnown& of_high) const;
 
     WallPolygon& polygon_;
-    std::vector<WallPolygon::Sight> sights_;
+    std::vector<WallPolygon::Sight> space_;
     std::vector<std::uint32_t> behind_;
     std::vector<HalfKnown> known_;
     std::vector<Diagonal> pairs_;
-    std::vector<std::vector<WallPolygon::Sight>> sights_from_;  // by position; of no use where not seen yet
-    std::vector<bool> is_seen_from_;
     std::size_t candidates_ = 0;
 };
 

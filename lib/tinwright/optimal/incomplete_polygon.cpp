@@ -41,27 +41,27 @@ bool IncompletePolygon::find_apex(const Base& base, std::uint32_t& apex) {
     const auto way = [&](std::uint32_t position) { return (position + n - base.i) % n; };
     const VertexId p = polygon_.vertex(base.i);
     const VertexId q = polygon_.vertex(base.j);
-    polygon_.look(base.i, {p, q}, from_i_);
-    polygon_.look(base.j, {p, q}, from_j_);
+    const auto from_i = polygon_.look(base.i, {p, q}, space_i_);
+    const auto from_j = polygon_.look(base.j, {p, q}, space_j_);
     // Both lists run along the ring: the one through the part first, the other through it last.
-    auto of_j = std::find_if(from_j_.begin(), from_j_.end(), [&](const auto& sight) {
+    auto of_j = std::find_if(from_j.begin(), from_j.end(), [&](const auto& sight) {
         return way(sight.position) < way(base.j) && sight.position != base.i;
     });
     const LengthOrder& order = polygon_.order();
     bool is_found = false;
     VertexId best{};
-    for (const WallPolygon::Sight& of_i : from_i_) {
+    for (const WallPolygon::Sight& of_i : from_i) {
         if (way(of_i.position) >= way(base.j)) {
             break;
         }
-        while (of_j != from_j_.end() && way(of_j->position) < way(of_i.position)) {
+        while (of_j != from_j.end() && way(of_j->position) < way(of_i.position)) {
             ++of_j;
         }
-        if (of_j == from_j_.end() || of_j->position != of_i.position || !of_i.is_left_empty ||
-            !of_j->is_right_empty) {
+        const VertexId x = of_i.vertex;
+        if (of_j == from_j.end() || of_j->position != of_i.position || !of_i.is_left_empty ||
+            !of_j->is_right_empty || !order.is_in_lune(x, p, q)) {
             continue;
         }
-        const VertexId x = of_i.vertex;
         const auto longer = [&](VertexId v) { return order.is_shorter(p, v, q, v) ? q : p; };
         if (!is_found || order.is_shorter(longer(x), x, longer(best), best)) {
             is_found = true;

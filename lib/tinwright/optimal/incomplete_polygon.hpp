@@ -43,8 +43,8 @@ class IncompletePolygon {
 
     WallPolygon& polygon_;
     std::vector<Base> bases_;  // stack
-    std::vector<WallPolygon::Sight> from_i_;
-    std::vector<WallPolygon::Sight> from_j_;
+    std::vector<WallPolygon::Sight> space_i_;
+    std::vector<WallPolygon::Sight> space_j_;
 };
 
 }  // namespace tinwright::internal

@@ -79,7 +79,7 @@ class PolygonOptimizer {
     const Walls& walls_;
     ExpandableEdgeSearch search_{polygon_};
     IncompletePolygon parts_{polygon_};
-    std::vector<WallPolygon::Sight> sights_;
+    std::vector<WallPolygon::Sight> space_;
 };
 
 void PolygonOptimizer::run(Task& task, const Poll& poll) {
@@ -190,13 +190,13 @@ std::optional<std::uint32_t> PolygonOptimizer::find_shortest_long_side() {
             continue;
         }
         const auto [a, b] = ends(side);
-        polygon_.look(position, {a, b}, sights_);
+        const auto sights = polygon_.look(position, {a, b}, space_);
         const auto is_in_half_lune = [&](const WallPolygon::Sight& sight) {
             return order_.is_in_lune(sight.vertex, a, b) &&
                    orient2d(order_.keys()[a.value], order_.keys()[b.value],
                             order_.keys()[sight.vertex.value]) > 0;
         };
-        if (std::any_of(sights_.begin(), sights_.end(), is_in_half_lune)) {
+        if (std::any_of(sights.begin(), sights.end(), is_in_half_lune)) {
             shortest = position;
         }
     }
@@ -258,15 +258,20 @@ void LengthOptimizer::make_walls() {
         walls_.is_wall = in_graph_;
     }
     const TriangleMesh& mesh = tin_.mesh;
+    std::size_t in_graph_only = 0;
     for (std::uint32_t f = 0; f < mesh.slot_count(); ++f) {
-        for (unsigned i = 0; i < 3 && mesh.is_terrain({f}); ++i) {
+        for (unsigned i = 0; i < 3; ++i) {
             const HalfEdgeId h = half_edge({f}, i);
-            const bool is_fixed = mesh.is_constrained(h) || mesh.is_border(h);
-            detail_.graph_edges += !is_fixed && in_graph_[h.value] != 0 ? 1U : 0U;
-            walls_.is_wall[h.value] |= is_fixed ? 1U : 0U;
+            if (!mesh.is_terrain({f})) {  // few look across their edges
+                walls_.is_wall[mesh.twin(h).value] = 1;
+            } else if (mesh.is_constrained(h)) {
+                walls_.is_wall[h.value] = 1;
+            } else {
+                in_graph_only += in_graph_[h.value];
+            }
         }
     }
-    detail_.graph_edges /= 2;
+    detail_.graph_edges = in_graph_only / 2;
 }
 
 /// Makes the edges of the graph edges of the mesh, and marks them.

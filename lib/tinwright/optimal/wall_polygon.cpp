@@ -9,6 +9,7 @@ namespace tinwright::internal {
 void WallPolygon::trace(HalfEdgeId wall) {
     sides_.clear();
     faces_.clear();
+    kept_before_.reset();
     HalfEdgeId side = wall;
     do {
         sides_.push_back(side);
@@ -36,7 +37,28 @@ void WallPolygon::trace(HalfEdgeId wall) {
     }
 }
 
-void WallPolygon::look(std::uint32_t position, VertexPair before, std::vector<Sight>& sights) {
+void WallPolygon::keep_sights(VertexPair before) {
+    kept_before_ = before;
+    is_kept_.assign(size(), false);
+    if (kept_.size() < size()) {
+        kept_.resize(size());
+    }
+}
+
+std::span<const WallPolygon::Sight> WallPolygon::look(std::uint32_t position, VertexPair before,
+                                                      std::vector<Sight>& space) {
+    if (!kept_before_) {
+        find_sights(position, before, space);
+        return space;
+    }
+    if (!is_kept_[position]) {
+        is_kept_[position] = true;
+        find_sights(position, *kept_before_, kept_[position]);
+    }
+    return kept_[position];
+}
+
+void WallPolygon::find_sights(std::uint32_t position, VertexPair before, std::vector<Sight>& sights) {
     const auto [a, b] = before;
     const HalfEdgeId first = sides_[position];
     const VertexId eye = mesh_->origin(first);

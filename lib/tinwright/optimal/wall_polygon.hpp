@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -59,15 +60,19 @@ class WallPolygon {
     [[nodiscard]] std::span<const FaceId> faces() const { return faces_; }
 
     /// The corners that the one at `position` sees and whose distance comes before that of a pair of
-    /// vertices, in counter-clockwise order, which is that of their positions. Valid until the next call on
-    /// the same `sights`. O(size) at most, less if much is farther away.
+    /// vertices, in counter-clockwise order, which is that of their positions. O(size) at most, less if much
+    /// is farther away. Valid until the next call with the same `space`.
     ///
     /// What is empty is found by a scan with a stack [tan1993, Sec. 5.6.1, step 1]: only vertices that p sees
     /// matter, since if there is one in the half-lune the first vertex on the shortest way to it from the
     /// other end is seen from both and is in it as well.
-    void look(std::uint32_t position, VertexPair before, std::vector<Sight>& sights);
+    std::span<const Sight> look(std::uint32_t position, VertexPair before, std::vector<Sight>& space);
+    /// Until the next polygon, what a corner sees nearer than this pair is found once and kept, and `look`
+    /// gives all of it, no matter how much is asked for. Memory for all that is seen: for few sides.
+    void keep_sights(VertexPair before);
 
   private:
+    void find_sights(std::uint32_t position, VertexPair before, std::vector<Sight>& sights);
     void find_empty_sides(VertexId eye, std::vector<Sight>& sights);
     template <class Iterator>
     void scan(VertexId eye, Iterator begin, Iterator end, int turn, bool Sight::*is_empty);
@@ -79,6 +84,9 @@ class WallPolygon {
     std::vector<HalfEdgeId> sides_;
     std::vector<FaceId> faces_;
     std::vector<Sight*> pending_;
+    std::optional<VertexPair> kept_before_;
+    std::vector<std::vector<Sight>> kept_;  // by position
+    std::vector<bool> is_kept_;
 };
 
 }  // namespace tinwright::internal
