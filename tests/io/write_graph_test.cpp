@@ -122,7 +122,8 @@ TEST_SUITE("io/write_graph") {
         WriteGraphOptions mapinfo;
         mapinfo.driver = "MapInfo File";
         CHECK(message_of<UsageError>([&] { check_graph_target("a.tab", mapinfo); }) ==
-              "driver \"MapInfo File\" loses the elevations of graphs; use .gpkg, .shp, .fgb, .gml, .sqlite, "
+              "driver \"MapInfo File\" does not keep the positions of graphs; use .gpkg, .shp, .fgb, .gml, "
+              ".sqlite, "
               ".csv or .geojson");
         WriteGraphOptions flat;
         flat.layer_options = {"SHPT=ARC"};
