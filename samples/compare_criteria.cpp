@@ -1,5 +1,5 @@
-// What each criterion does to a terrain: Delaunay, flips alone, edge insertion. Every tenth sample is held
-// out; the table says how steep and how thin the faces are, and how far the surface is from the held-out
+// What each criterion does to a terrain: Delaunay, flips alone, the optimum. Every tenth sample is held out;
+// the table says how steep, how thin and how long the faces are, and how far the surface is from the held-out
 // samples.
 //   compare_criteria SOURCE [CRS]
 #include <algorithm>
@@ -11,6 +11,7 @@
 #include <iostream>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tinwright/io/read_samples.hpp"
@@ -133,9 +134,18 @@ void print_row(const std::string& name, const Tin& tin, const HeldOut& held_out,
         std::printf(" %.3g |", slopes[static_cast<std::size_t>(part * static_cast<double>(slopes.size()))]);
     }
     const double rmse = held_out.rmse(tin);
-    std::printf(" %.3g | %.5g | %.4g | %.4g | %+.1f %% | %s |\n", find_worst(tin, Criterion::Height).all,
-                find_worst(tin, Criterion::Angle).all, find_worst(tin, Criterion::Eccentricity).all, rmse,
+    std::printf(" %.3g | %.5g | %.4g | %.4g | %.4g | %+.1f %% | %s |\n",
+                find_worst(tin, Criterion::Height).all, find_worst(tin, Criterion::Angle).all,
+                find_worst(tin, Criterion::Eccentricity).all, find_worst(tin, Criterion::Length).all, rmse,
                 100 * (rmse / (delaunay_rmse > 0 ? delaunay_rmse : rmse) - 1), proof_text(proof));
+}
+
+/// Of length only the longest edge counts.
+std::vector<std::pair<std::string, Scope>> scopes_of(Criterion criterion) {
+    if (criterion == Criterion::Length) {
+        return {{"max", {Scope::Kind::Max, 0}}};
+    }
+    return {{"top:0.5%", {Scope::Kind::Top, 0.5}}, {"vector", {Scope::Kind::Vector, 0}}};
 }
 
 void compare(const std::vector<Point3>& samples) {
@@ -155,22 +165,21 @@ void compare(const std::vector<Point3>& samples) {
     std::printf("%zu samples, %zu of them held out\n\n", samples.size(), unknown.size());
     std::printf(
         "| TIN | worst slope | 99.9 %% | 99 %% | 90 %% | 50 %% | least height | largest angle | "
-        "greatest eccentricity | RMSE | to Delaunay | proven "
-        "|\n|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+        "greatest eccentricity | longest edge | RMSE | to Delaunay | proven "
+        "|\n|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
     print_row("Delaunay", delaunay.tin, held_out, delaunay_rmse);
-    for (const Criterion criterion : tinwright::kInsertionCriteria) {
+    for (const Criterion criterion : tinwright::kCriteria) {
         const std::string name(criterion_traits(criterion).name);
         Tin flipped = delaunay.tin;
         tinwright::flip_edges(flipped, criterion);
         print_row(name + ", flips only", flipped, held_out, delaunay_rmse);
-        for (const Scope scope : {Scope{Scope::Kind::Top, 0.5}, Scope{Scope::Kind::Vector, 0}}) {
+        for (const auto& [scope_name, scope] : scopes_of(criterion)) {
             Tin optimal = delaunay.tin;
             tinwright::OptimizeOptions options;
             options.criterion = criterion;
             options.scope = scope;
             const tinwright::OptimizeReport report = tinwright::optimize(optimal, options);
-            print_row(name + (scope.kind == Scope::Kind::Top ? ", top:0.5%" : ", vector"), optimal, held_out,
-                      delaunay_rmse, report.proof);
+            print_row(name + ", " + scope_name, optimal, held_out, delaunay_rmse, report.proof);
         }
     }
 }
