@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "tinwright/geometry/lattice.hpp"
@@ -34,7 +35,8 @@ class CornerView {
     /// Looks from the origin of `first`, whose face is terrain, counter-clockwise from that half-edge on to
     /// the next wall, or once around. `is_wall(h)`: whether the edge of a half-edge is a wall; the terrain's
     /// border always is. `is_worth(h)`: whether to look through the edge of `h`, a half-edge whose face is on
-    /// the near side; what is beyond an edge that is not worth it is left out.
+    /// the near side; what is beyond an edge that is not worth it is left out. `is_worth(h, right, left)` is
+    /// told as well between which two seen vertices the lines of sight pass there.
     template <class IsWall, class IsWorth>
     void look(HalfEdgeId first, const IsWall& is_wall, const IsWorth& is_worth);
 
@@ -103,7 +105,14 @@ void CornerView::look_through(HalfEdgeId edge, VertexId eye, const IsWall& is_wa
             seen_.push_back({wedge.right, wedge.edge});
             continue;
         }
-        if (is_closed(wedge.edge, is_wall) || !is_worth(wedge.edge)) {
+        if (is_closed(wedge.edge, is_wall)) {
+            continue;
+        }
+        if constexpr (std::is_invocable_v<const IsWorth&, HalfEdgeId, VertexId, VertexId>) {
+            if (!is_worth(wedge.edge, wedge.right, wedge.left)) {
+                continue;
+            }
+        } else if (!is_worth(wedge.edge)) {
             continue;
         }
         const HalfEdgeId behind = mesh_->twin(wedge.edge);

@@ -4,9 +4,12 @@
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
 
 #include "tinwright/delaunay/half_lune_search.hpp"
+#include "tinwright/delaunay/octant_search.hpp"
 #include "tinwright/delaunay/proximity_graphs.hpp"
+#include "tinwright/mesh/mesh_walk.hpp"
 
 namespace tinwright {
 
@@ -14,6 +17,8 @@ namespace {
 
 constexpr std::uint32_t kSlotsPerReport = 1U << 17U;
 constexpr std::uint32_t kSlotsPerTask = 4096;
+constexpr std::size_t kTasksPerReport = 32;
+constexpr std::size_t kVerticesPerTask = 1024;
 
 // Marks what the lower half-edge of each edge, that of `h` or its twin, stands for.
 void mark_edge(const TriangleMesh& mesh, HalfEdgeId h, HalfLuneSearch& search,
@@ -52,11 +57,73 @@ std::vector<std::uint8_t> mark_edges(const TriangleMesh& mesh, std::span<const K
     return marks;
 }
 
+// The edges with marks, ascending.
+std::vector<GraphEdge> list_edges(const TriangleMesh& mesh, const std::vector<std::uint8_t>& marks) {
+    std::vector<GraphEdge> edges;
+    for (std::uint32_t f = 0; f < mesh.slot_count(); ++f) {
+        for (unsigned i = 0; i < 3; ++i) {
+            const HalfEdgeId h = half_edge({f}, i);
+            if (marks[h.value] != 0 && mesh.origin(h) < mesh.destination(h)) {
+                edges.push_back({mesh.origin(h), mesh.destination(h)});
+            }
+        }
+    }
+    tbb::parallel_sort(edges.begin(), edges.end());
+    return edges;
+}
+
+// The edges of collinear vertices, ascending: those of the mesh, which has no faces but ghosts.
+std::vector<GraphEdge> list_row(const TriangleMesh& mesh) {
+    std::vector<std::uint8_t> marks(4 * mesh.slot_count());
+    for (std::uint32_t f = 0; f < mesh.slot_count(); ++f) {
+        marks[half_edge({f}, 0).value] = 1;
+    }
+    return list_edges(mesh, marks);
+}
+
+// Vertices are taken in blocks, whose edges follow each other.
+std::vector<GraphEdge> search_octants(const TriangleMesh& mesh, std::span<const Key2> keys, Norm norm,
+                                      LuneRim rim, const Progress& progress) {
+    const std::vector<HalfEdgeId> starts = find_starts(mesh);
+    const std::size_t blocks = (keys.size() + kVerticesPerTask - 1) / kVerticesPerTask;
+    std::vector<std::vector<GraphEdge>> found(blocks);
+    for (std::size_t begin = 0; begin < blocks; begin += kTasksPerReport) {
+        report_progress(progress, static_cast<double>(begin) / static_cast<double>(blocks));
+        tbb::parallel_for(begin, std::min(begin + kTasksPerReport, blocks), [&](std::size_t block) {
+            OctantSearch search(mesh, keys, norm, rim);
+            const std::size_t end = std::min((block + 1) * kVerticesPerTask, keys.size());
+            for (std::size_t v = block * kVerticesPerTask; v < end; ++v) {
+                if (starts[v] != kNoHalfEdge) {
+                    search.find({static_cast<std::uint32_t>(v)}, starts[v], found[block]);
+                }
+            }
+        });
+    }
+    std::vector<GraphEdge> edges;
+    for (const std::vector<GraphEdge>& of_block : found) {
+        edges.insert(edges.end(), of_block.begin(), of_block.end());
+    }
+    report_progress(progress, 1);
+    return edges;
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> mark_relative_neighbors(const TriangleMesh& mesh, std::span<const Key2> keys,
                                                   const Progress& progress) {
     return mark_edges(mesh, keys, LuneRim::Ordered, progress);
+}
+
+std::vector<GraphEdge> make_relative_neighborhood_graph(const TriangleMesh& mesh, std::span<const Key2> keys,
+                                                        Norm norm, LuneRim rim, const Progress& progress) {
+    if (norm.is_euclidean()) {
+        return list_edges(mesh, mark_edges(mesh, keys, rim, progress));
+    }
+    bool is_row = true;
+    for (std::uint32_t f = 0; f < mesh.slot_count() && is_row; ++f) {
+        is_row = mesh.is_ghost({f});
+    }
+    return is_row ? list_row(mesh) : search_octants(mesh, keys, norm, rim, progress);
 }
 
 }  // namespace tinwright

@@ -55,6 +55,23 @@ enum class SquarePass : std::uint8_t {
 };
 SquarePass pass_square(Key2 a, Key2 b, Key2 c);
 
+/// In which octant around `from` another key is: 0 to 7 counter-clockwise, each from its first ray, included,
+/// to the next, 45 degrees on; 0 starts along x.
+inline int octant(Key2 from, Key2 to) {
+    const double x = to.x - from.x;
+    const double y = to.y - from.y;
+    if (y >= 0 && x > 0) {
+        return y < x ? 0 : 1;
+    }
+    if (x <= 0 && y > 0) {
+        return -x < y ? 2 : 3;
+    }
+    if (y <= 0 && x < 0) {
+        return -y < -x ? 4 : 5;
+    }
+    return x < -y ? 6 : 7;
+}
+
 /// Lexicographic order of keys, x before y.
 inline bool precedes(Key2 a, Key2 b) { return a.x < b.x || (a.x == b.x && a.y < b.y); }
 

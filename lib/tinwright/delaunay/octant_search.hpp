@@ -1,0 +1,68 @@
+#ifndef TINWRIGHT_DELAUNAY_OCTANT_SEARCH_HPP
+#define TINWRIGHT_DELAUNAY_OCTANT_SEARCH_HPP
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "tinwright/delaunay/corner_view.hpp"
+#include "tinwright/delaunay/length_order.hpp"
+#include "tinwright/delaunay/proximity_graphs.hpp"
+#include "tinwright/mesh/triangle_mesh.hpp"
+
+namespace tinwright {
+
+/// Finds the relative neighbours of one vertex after the other in a norm that is not the Euclidean one, from
+/// a mesh that is Delaunay in the Euclidean one, constrained or not.
+///
+/// Only the nearest vertices within an octant can be neighbours. They are tried against what the vertex sees
+/// in the same corner, on the side of less than 180 degrees: all of that counts, as in HalfLuneSearch.
+class OctantSearch {
+  public:
+    /// Both must outlive the search.
+    OctantSearch(const TriangleMesh& mesh, std::span<const Key2> keys, Norm norm, LuneRim rim);
+
+    /// Appends the edges from `p` to neighbours of greater number, ascending. `start`: a half-edge from `p`.
+    void find(VertexId p, HalfEdgeId start, std::vector<GraphEdge>& edges);
+
+  private:
+    struct Candidate {
+        std::size_t index;  // among what was seen
+        VertexId vertex;
+        bool is_last;          // ends the corner
+        bool is_wall_between;  // the edge to it is to be found in the two corners that it separates
+    };
+
+    [[nodiscard]] bool starts_corner(HalfEdgeId h) const;
+    void find_in_corner(HalfEdgeId first);
+    void look_for_nearest(HalfEdgeId first);
+    void look_as_far_as_candidates(HalfEdgeId first);
+    void choose_candidates();
+    [[nodiscard]] Candidate candidate(std::size_t index) const;
+    void drop_blocked();
+    [[nodiscard]] bool is_blocked(const Candidate& q) const;
+
+    [[nodiscard]] std::size_t slot(VertexId v) const;
+    [[nodiscard]] double squared_reach_between(VertexId right, VertexId left);
+    [[nodiscard]] double squared_reach(VertexId v) const;
+    [[nodiscard]] bool may_hide(HalfEdgeId edge, double squared_reach) const;
+
+    const TriangleMesh* mesh_;
+    std::span<const Key2> keys_;
+    LengthOrder lengths_;
+    LuneRim rim_;
+    double widest_;  // square of the Euclidean length of what is longest in it for its length in the norm
+    CornerView view_;
+
+    VertexId p_{};
+    VertexId first_{};  // of the corner
+    bool is_around_ = false;
+    std::array<double, 9> nearest_{};  // squared reach of the nearest seen so far, by slots
+    std::vector<Candidate> candidates_;
+    std::vector<Candidate> found_;
+};
+
+}  // namespace tinwright
+
+#endif
