@@ -120,9 +120,10 @@ std::string polygons_line(const LengthReport& length) {
     if (length.polygons == 0) {
         return "relative neighbours and border leave nothing to choose";
     }
-    return counted(length.polygons, "polygon", "polygons") + " between relative neighbours, up to " +
-           counted(length.largest, "side", "sides") + " each, " + std::to_string(length.changed) +
-           " triangulated anew";
+    const std::string sides = counted(length.largest, "side", "sides");
+    return counted(length.polygons, "polygon", "polygons") + " between relative neighbours, " +
+           (length.polygons == 1 ? "of " + sides : "up to " + sides + " each") + ", " +
+           std::to_string(length.changed) + " triangulated anew";
 }
 
 /// Why slopes are not rise over run in one unit; empty if they are.
