@@ -5,14 +5,15 @@
 
 namespace tinwright::internal {
 
-std::optional<ExpandableEdgeSearch::Diagonal> ExpandableEdgeSearch::find_among_many(VertexPair before,
+std::optional<ExpandableEdgeSearch::Diagonal> ExpandableEdgeSearch::find_among_many(VertexPair at_least,
+                                                                                    VertexPair before,
                                                                                     const Poll& poll) {
     known_.clear();
     for (std::uint32_t position = 0; position < polygon_.size(); ++position) {
         if (!poll()) {
             return std::nullopt;
         }
-        note(position, polygon_.look(position, before, space_));
+        note(position, at_least, polygon_.look(position, before, space_));
     }
     std::sort(known_.begin(), known_.end(), [](const HalfKnown& x, const HalfKnown& y) {
         return std::tie(x.edge.low, x.edge.high, x.is_from_high) <
@@ -32,7 +33,8 @@ std::optional<ExpandableEdgeSearch::Diagonal> ExpandableEdgeSearch::find_among_m
 }
 
 /// Step 2 for all 2-edges from `eye`: the empty lines next to them. The first and the last line are sides.
-void ExpandableEdgeSearch::note(std::uint32_t eye, std::span<const WallPolygon::Sight> sights) {
+void ExpandableEdgeSearch::note(std::uint32_t eye, VertexPair at_least,
+                                std::span<const WallPolygon::Sight> sights) {
     const std::size_t count = sights.size();
     behind_.assign(count, 0);
     for (std::size_t k = count; k-- > 1;) {
@@ -41,7 +43,8 @@ void ExpandableEdgeSearch::note(std::uint32_t eye, std::span<const WallPolygon::
     std::uint32_t before = 0;
     for (std::size_t k = 0; k < count; ++k) {
         const WallPolygon::Sight& sight = sights[k];
-        if (!sight.is_left_empty && !sight.is_right_empty) {
+        if (!sight.is_left_empty && !sight.is_right_empty &&
+            !is_shorter({polygon_.vertex(eye), sight.vertex}, at_least)) {
             known_.push_back({{std::min(eye, sight.position), std::max(eye, sight.position)},
                               eye > sight.position,
                               before,

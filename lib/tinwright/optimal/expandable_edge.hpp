@@ -28,16 +28,16 @@ class ExpandableEdgeSearch {
     explicit ExpandableEdgeSearch(WallPolygon& polygon) : polygon_(polygon) {}
 
     /// The shortest expandable 2-edge among those that come before a pair of vertices which is no shorter
-    /// than any side; empty if there is none, or when stopped.
+    /// than any side; empty if there is none, or when stopped. `at_least`: comes before no edge that can be
+    /// the one, since no triangulation without an edge like `before` has all its edges before it.
     ///
     /// Only lines of sight before the pair are looked at. That leaves the result as it is: the faces at an
     /// expandable edge lie in its lune, so their edges, which alone can make it pass the test of step 3, are
     /// shorter than it is; and what passes with fewer lines passes with all. O(n^2) for n sides, less where
-    /// little is seen within that length; memory for the 2-edges before the pair.
-    std::optional<Diagonal> find_among_many(VertexPair before, const Poll& poll);
-    /// The same, for few sides: pairs of corners are tried shortest first, from `at_least` on, which no
-    /// triangulation without an edge like `before` can do without. As a rule one of the first is the one, and
-    /// only what its ends see has to be found. Makes the polygon keep its sights.
+    /// little is seen within that length; memory for the 2-edges between the pairs.
+    std::optional<Diagonal> find_among_many(VertexPair at_least, VertexPair before, const Poll& poll);
+    /// The same, for few sides: pairs of corners are tried shortest first. As a rule one of the first is the
+    /// one, and only what its ends see has to be found. Makes the polygon keep its sights.
     std::optional<Diagonal> find_among_few(VertexPair at_least, VertexPair before);
 
     /// 2-edges that came into question, over all calls.
@@ -53,7 +53,7 @@ class ExpandableEdgeSearch {
         std::uint32_t behind;  ///< counter-clockwise
     };
 
-    void note(std::uint32_t eye, std::span<const WallPolygon::Sight> sights);
+    void note(std::uint32_t eye, VertexPair at_least, std::span<const WallPolygon::Sight> sights);
     [[nodiscard]] std::optional<HalfKnown> know(std::uint32_t eye, std::uint32_t other, VertexPair before);
     void collect_pairs(VertexPair at_least, VertexPair before);
     [[nodiscard]] bool is_shorter(VertexPair x, VertexPair y) const {

@@ -69,7 +69,7 @@ class PolygonOptimizer {
     }
     [[nodiscard]] VertexPair longest_side() const;
     [[nodiscard]] HalfEdgeId longest_diagonal() const;
-    [[nodiscard]] std::optional<VertexPair> bound_without(HalfEdgeId longest) const;
+    [[nodiscard]] std::optional<VertexPair> bound_without(HalfEdgeId longest, const Poll& poll) const;
     [[nodiscard]] std::optional<std::uint32_t> find_shortest_long_side();
     bool improve_complete(HalfEdgeId longest, Task& task, const Poll& poll);
 
@@ -109,10 +109,9 @@ bool PolygonOptimizer::improve_complete(HalfEdgeId longest, Task& task, const Po
     constexpr std::uint32_t kMany = 64;
     const VertexPair pair = ends(longest);
     std::optional<ExpandableEdgeSearch::Diagonal> best;
-    if (polygon_.size() > kMany) {
-        best = search_.find_among_many(pair, poll);
-    } else if (const auto bound = bound_without(longest)) {
-        best = search_.find_among_few(*bound, pair);
+    if (const auto bound = bound_without(longest, poll)) {
+        best = polygon_.size() > kMany ? search_.find_among_many(*bound, pair, poll)
+                                       : search_.find_among_few(*bound, pair);
     }
     if (!best || !is_really_shorter({polygon_.vertex(best->low), polygon_.vertex(best->high)}, pair)) {
         return poll();
@@ -135,7 +134,7 @@ VertexPair PolygonOptimizer::longest_side() const {
 /// and no edge as long. Of all triangles that might be those faces the least in longest edge is taken, and
 /// the longer of the two edges is the bound; where there are no such triangles, the diagonal cannot be
 /// avoided. That spares most polygons that keep their faces the search.
-std::optional<VertexPair> PolygonOptimizer::bound_without(HalfEdgeId longest) const {
+std::optional<VertexPair> PolygonOptimizer::bound_without(HalfEdgeId longest, const Poll& poll) const {
     const VertexPair pq = ends(longest);
     const std::uint32_t from = walls_.position[longest.value];
     const std::uint32_t to = walls_.position[next(longest).value];
@@ -151,7 +150,7 @@ std::optional<VertexPair> PolygonOptimizer::bound_without(HalfEdgeId longest) co
             least = edge;
         }
     };
-    for (std::uint32_t i = polygon_.after(from); i != to; i = polygon_.after(i)) {
+    for (std::uint32_t i = polygon_.after(from); i != to && poll(); i = polygon_.after(i)) {
         for (std::uint32_t j = polygon_.after(to); j != from; j = polygon_.after(j)) {
             const VertexPair xy{polygon_.vertex(i), polygon_.vertex(j)};
             if (is_really_shorter(xy, pq)) {
@@ -212,13 +211,16 @@ class LengthOptimizer {
     OptimizeReport run();
 
   private:
+    bool find_graph();
+    void insert_graph(const Progress& progress);
     void make_walls();
-    void insert_graph();
     void find_polygons();
     void improve_polygons();
     void improve_together(std::size_t begin, std::size_t end);
     void apply();
     [[nodiscard]] bool must_stop(std::size_t done);
+
+    static constexpr double kGraphPart = 0.3;  // of the work
 
     Tin& tin_;
     const OptimizeOptions& options_;
@@ -235,10 +237,12 @@ class LengthOptimizer {
 OptimizeReport LengthOptimizer::run() {
     report_.before = find_worst(tin_, Criterion::Length, options_.norm);
     const TriangleMesh at_the_start = options_.norm.is_euclidean() ? TriangleMesh() : tin_.mesh;
-    make_walls();
-    find_polygons();
-    improve_polygons();
-    apply();
+    if (find_graph()) {
+        make_walls();
+        find_polygons();
+        improve_polygons();
+        apply();
+    }
     report_.after = find_worst(tin_, Criterion::Length, options_.norm);
     if (stopwatch_.has_stopped() && report_.after.all > report_.before.all) {
         tin_.mesh = at_the_start;
@@ -250,13 +254,29 @@ OptimizeReport LengthOptimizer::run() {
     return report_;
 }
 
-void LengthOptimizer::make_walls() {
-    if (!options_.norm.is_euclidean()) {
-        insert_graph();
-    } else {
-        in_graph_ = mark_relative_neighbors(tin_.mesh, tin_.keys);
-        walls_.is_wall = in_graph_;
+/// False if stopped.
+bool LengthOptimizer::find_graph() {
+    const auto slots = static_cast<double>(tin_.mesh.slot_count());
+    stopwatch_.set_stage(0, kGraphPart);
+    const Progress progress = [&](double part) {
+        const auto done = static_cast<std::size_t>(part * slots);
+        return !stopwatch_.is_over(done, tin_.mesh.slot_count(), done);
+    };
+    try {
+        if (options_.norm.is_euclidean()) {
+            in_graph_ = mark_relative_neighbors(tin_.mesh, tin_.keys, progress);
+        } else {
+            insert_graph(progress);
+        }
+    } catch (const Cancelled&) {
+        return false;
     }
+    stopwatch_.set_stage(kGraphPart, 1);
+    return true;
+}
+
+void LengthOptimizer::make_walls() {
+    walls_.is_wall = in_graph_;
     const TriangleMesh& mesh = tin_.mesh;
     std::size_t in_graph_only = 0;
     for (std::uint32_t f = 0; f < mesh.slot_count(); ++f) {
@@ -275,10 +295,10 @@ void LengthOptimizer::make_walls() {
 }
 
 /// Makes the edges of the graph edges of the mesh, and marks them.
-void LengthOptimizer::insert_graph() {
+void LengthOptimizer::insert_graph(const Progress& progress) {
     TriangleMesh& mesh = tin_.mesh;
     const std::vector<GraphEdge> graph =
-        make_relative_neighborhood_graph(mesh, tin_.keys, options_.norm, LuneRim::Ordered);
+        make_relative_neighborhood_graph(mesh, tin_.keys, options_.norm, LuneRim::Ordered, progress);
     std::vector<GraphEdge> constrained;
     for (std::uint32_t f = 0; f < mesh.slot_count(); ++f) {
         for (unsigned i = 0; i < 3 && mesh.is_terrain({f}); ++i) {
@@ -298,7 +318,6 @@ void LengthOptimizer::insert_graph() {
     insert_segments(mesh, tin_.keys, segments);
 
     in_graph_.assign(4 * mesh.slot_count(), 0);
-    walls_.is_wall = in_graph_;
     for (std::uint32_t f = 0; f < mesh.slot_count(); ++f) {
         for (unsigned i = 0; i < 3 && mesh.is_terrain({f}); ++i) {
             const HalfEdgeId h = half_edge({f}, i);
@@ -309,11 +328,9 @@ void LengthOptimizer::insert_graph() {
             const GraphEdge edge{a, b};
             const bool is_in_graph = std::binary_search(graph.begin(), graph.end(), edge);
             in_graph_[h.value] = is_in_graph ? 1 : 0;
-            walls_.is_wall[h.value] = in_graph_[h.value];
             if (is_in_graph && !std::binary_search(constrained.begin(), constrained.end(), edge)) {
                 mesh.set_constrained(h, false);
                 in_graph_[mesh.twin(h).value] = 1;
-                walls_.is_wall[mesh.twin(h).value] = 1;
             }
         }
     }
