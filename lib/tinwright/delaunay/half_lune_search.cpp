@@ -5,23 +5,23 @@
 
 namespace tinwright {
 
-bool HalfLuneSearch::is_empty(HalfEdgeId h) {
-    const HalfEdgeId twin = mesh_->twin(h);
-    const bool is_left = mesh_->is_terrain(face_of(h));
-    const bool is_right = mesh_->is_terrain(face_of(twin));
-    // Most edges have an apex in their lune.
-    if ((is_left && is_apex_in_lune(h)) || (is_right && is_apex_in_lune(twin))) {
-        return false;
+// It can only be the longest edge.
+unsigned HalfLuneSearch::find_occupied(FaceId f) const {
+    const auto& v = mesh_->face(f).vertex;
+    const unsigned of_two = lengths_.is_shorter(v[0], v[1], v[1], v[2]) ? 1 : 0;
+    const bool is_third = lengths_.is_shorter(v[of_two], v[of_two + 1], v[2], v[0]);
+    const unsigned longest = is_third ? 2 : of_two;
+    if (rim_ == LuneRim::Ordered) {
+        return longest;
     }
-    return (!is_left || is_empty_on_left(h)) && (!is_right || is_empty_on_left(twin));
+    const unsigned end = next_corner(longest);
+    return lengths_.is_in_open_lune(v[previous_corner(longest)], v[longest], v[end]) ? longest : 3;
 }
 
-bool HalfLuneSearch::is_apex_in_lune(HalfEdgeId h) const {
-    return is_in_lune(mesh_->origin(previous(h)), mesh_->origin(h), mesh_->destination(h));
-}
-
-// The apex of the first face is known not to be in the lune.
-bool HalfLuneSearch::is_empty_on_left(HalfEdgeId h) {
+bool HalfLuneSearch::is_empty(HalfEdgeId h) {
+    if (is_lune_in_circle(h)) {
+        return true;
+    }
     const VertexId p = mesh_->origin(h);
     const VertexId q = mesh_->destination(h);
     HalfEdgeId spoke = h;
@@ -38,6 +38,18 @@ bool HalfLuneSearch::is_empty_on_left(HalfEdgeId h) {
             return false;
         }
     }
+}
+
+// The edge p q is seen from its half-lune at 60 degrees or more, and at less from what is outside the circle
+// of the face p q c, if it is from c: then the half-lune is inside. A vertex in it would be seen from within
+// the face: one in the lune that sees p and q with no other vertex between. The cosine of 60 degrees squared
+// is 0.25; rounding cannot make 0.26 of it.
+bool HalfLuneSearch::is_lune_in_circle(HalfEdgeId h) const {
+    const Key2 p = keys_[mesh_->origin(h).value];
+    const Key2 q = keys_[mesh_->destination(h).value];
+    const Key2 c = keys_[mesh_->origin(previous(h)).value];
+    const double product = (p.x - c.x) * (q.x - c.x) + (p.y - c.y) * (q.y - c.y);
+    return product > 0 && product * product > 0.26 * squared_distance(c, p) * squared_distance(c, q);
 }
 
 // From p, what is nearer than q and at least as near to q is within 60 degrees of the direction to q. The

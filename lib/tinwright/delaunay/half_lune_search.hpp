@@ -10,7 +10,8 @@
 
 namespace tinwright {
 
-/// Looks for vertices in the lunes of a Delaunay mesh's edges, constrained or not, in the Euclidean norm.
+/// Looks for vertices in the lunes of the edges of a mesh that is Delaunay, constrained or not, in the
+/// Euclidean norm.
 ///
 /// Any vertex in the lune of p q that p sees, in the corner of p in which q is, will do: if q does not see
 /// it, a vertex of the shortest way from q to it is in the lune and seen from both (docs/criteria.md).
@@ -20,8 +21,11 @@ class HalfLuneSearch {
     HalfLuneSearch(const TriangleMesh& mesh, std::span<const Key2> keys, LuneRim rim)
         : mesh_(&mesh), keys_(keys), lengths_(keys), rim_(rim) {}
 
-    /// Whether the edge of `h`, which has terrain on one side at least, is in the relative neighbourhood
-    /// graph.
+    /// The corner of a face from which the edge starts that has the third vertex in its lune, or 3: none has.
+    [[nodiscard]] unsigned find_occupied(FaceId f) const;
+
+    /// Whether no vertex on the side of `h`, whose face is terrain, is in the lune of its edge. The third
+    /// vertex of the face must not be.
     [[nodiscard]] bool is_empty(HalfEdgeId h);
 
   private:
@@ -37,8 +41,7 @@ class HalfLuneSearch {
     [[nodiscard]] bool is_in_lune(VertexId x, VertexId p, VertexId q) const {
         return rim_ == LuneRim::Ordered ? lengths_.is_in_lune(x, p, q) : lengths_.is_in_open_lune(x, p, q);
     }
-    [[nodiscard]] bool is_apex_in_lune(HalfEdgeId h) const;
-    [[nodiscard]] bool is_empty_on_left(HalfEdgeId h);
+    [[nodiscard]] bool is_lune_in_circle(HalfEdgeId h) const;
     [[nodiscard]] bool is_beyond_lune(VertexId p, VertexId q, VertexId spoke) const;
     [[nodiscard]] bool is_empty_behind(HalfEdgeId far, VertexId p, VertexId q);
     [[nodiscard]] bool may_hide(HalfEdgeId edge, VertexId p, VertexId q) const;

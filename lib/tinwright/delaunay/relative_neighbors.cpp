@@ -20,26 +20,11 @@ constexpr std::uint32_t kSlotsPerTask = 4096;
 constexpr std::size_t kTasksPerReport = 32;
 constexpr std::size_t kVerticesPerTask = 1024;
 
-// Marks what the lower half-edge of each edge, that of `h` or its twin, stands for.
-void mark_edge(const TriangleMesh& mesh, HalfEdgeId h, HalfLuneSearch& search,
-               std::vector<std::uint8_t>& marks) {
-    const HalfEdgeId twin = mesh.twin(h);
-    if (twin < h) {
-        return;
-    }
-    const bool is_terrain = mesh.is_terrain(face_of(h)) || mesh.is_terrain(face_of(twin));
-    // Collinear vertices have no terrain, but edges between two ghosts.
-    const bool is_of_row = mesh.is_ghost(face_of(h)) && mesh.is_ghost(face_of(twin)) && corner_of(h) == 0;
-    if (is_of_row || (is_terrain && search.is_empty(h))) {
-        marks[h.value] = 1;
-        marks[twin.value] = 1;
-    }
-}
-
-std::vector<std::uint8_t> mark_edges(const TriangleMesh& mesh, std::span<const Key2> keys, LuneRim rim,
-                                     const Progress& progress) {
+// Calls visit(search, f) for every face slot.
+template <class Visit>
+void for_each_slot(const TriangleMesh& mesh, std::span<const Key2> keys, LuneRim rim,
+                   const Progress& progress, const Visit& visit) {
     const auto slots = static_cast<std::uint32_t>(mesh.slot_count());
-    std::vector<std::uint8_t> marks(4 * mesh.slot_count());
     using Slots = tbb::blocked_range<std::uint32_t>;
     for (std::uint32_t begin = 0; begin < slots; begin += std::min(kSlotsPerReport, slots - begin)) {
         report_progress(progress, static_cast<double>(begin) / slots);
@@ -47,12 +32,58 @@ std::vector<std::uint8_t> mark_edges(const TriangleMesh& mesh, std::span<const K
         tbb::parallel_for(Slots(begin, end, kSlotsPerTask), [&](const Slots& block) {
             HalfLuneSearch search(mesh, keys, rim);
             for (std::uint32_t f = block.begin(); f < block.end(); ++f) {
-                for (unsigned i = 0; i < 3; ++i) {
-                    mark_edge(mesh, half_edge({f}, i), search, marks);
-                }
+                visit(search, FaceId{f});
             }
         });
     }
+}
+
+// Marks the half-edges of a face whose edge may be in the graph as far as their side goes. Collinear vertices
+// have no terrain, but edges between two ghosts.
+void mark_face(const TriangleMesh& mesh, FaceId f, const HalfLuneSearch& search,
+               std::vector<std::uint8_t>& marks) {
+    if (!mesh.is_terrain(f)) {
+        const bool is_row = mesh.is_ghost(f) && mesh.is_ghost(face_of(mesh.twin(half_edge(f, 0))));
+        for (unsigned i = 0; i < 3; ++i) {
+            marks[half_edge(f, i).value] =
+                mesh.is_terrain(face_of(mesh.twin(half_edge(f, i)))) || (is_row && i == 0) ? 1 : 0;
+        }
+        return;
+    }
+    const unsigned occupied = search.find_occupied(f);
+    for (unsigned i = 0; i < 3; ++i) {
+        marks[half_edge(f, i).value] = i != occupied ? 1 : 0;
+    }
+}
+
+// Leaves an edge of the face marked on both sides or on none; each edge is looked at from its lower
+// half-edge.
+void settle_face(const TriangleMesh& mesh, FaceId f, HalfLuneSearch& search,
+                 std::vector<std::uint8_t>& marks) {
+    for (unsigned i = 0; i < 3; ++i) {
+        const HalfEdgeId h = half_edge(f, i);
+        const HalfEdgeId twin = mesh.twin(h);
+        if (twin < h) {
+            continue;
+        }
+        const auto is_clear = [&](HalfEdgeId side) {
+            return !mesh.is_terrain(face_of(side)) || search.is_empty(side);
+        };
+        const bool is_in_graph =
+            marks[h.value] != 0 && marks[twin.value] != 0 && is_clear(h) && is_clear(twin);
+        marks[h.value] = is_in_graph ? 1 : 0;
+        marks[twin.value] = marks[h.value];
+    }
+}
+
+std::vector<std::uint8_t> mark_edges(const TriangleMesh& mesh, std::span<const Key2> keys, LuneRim rim,
+                                     const Progress& progress) {
+    std::vector<std::uint8_t> marks(4 * mesh.slot_count());
+    report_progress(progress, 0);
+    for_each_slot(mesh, keys, rim, {},
+                  [&](const HalfLuneSearch& search, FaceId f) { mark_face(mesh, f, search, marks); });
+    for_each_slot(mesh, keys, rim, progress,
+                  [&](HalfLuneSearch& search, FaceId f) { settle_face(mesh, f, search, marks); });
     report_progress(progress, 1);
     return marks;
 }
