@@ -100,7 +100,7 @@ std::vector<GraphEdge> edges_of(const TriangleMesh& mesh) {
     for (std::uint32_t f = 0; f < mesh.slot_count(); ++f) {
         for (unsigned i = 0; i < 3 && mesh.is_terrain({f}); ++i) {
             const HalfEdgeId h = half_edge({f}, i);
-            const auto [a, b] = std::minmax(mesh.origin(h), mesh.destination(h));
+            const auto [a, b] = std::minmax({mesh.origin(h), mesh.destination(h)});
             edges.push_back({a, b});
         }
     }
@@ -122,10 +122,11 @@ std::string number(double value) {
 /// Panels side by side.
 class Picture {
   public:
-    Picture(std::string title, double scale) : title_(std::move(title)), scale_(scale) {}
+    explicit Picture(std::string title) : title_(std::move(title)) {}
 
-    /// Begins a panel for the places from `low` to (width, height) beyond it.
-    void begin(const std::string& caption, Point2 low, double width, double height) {
+    /// Begins a panel for the places from `low` to (width, height) beyond it; `scale`: picture units a metre.
+    void begin(const std::string& caption, Point2 low, double width, double height, double scale) {
+        scale_ = scale;
         left_ = right_ + (right_ > 0 ? kGap : 0);
         right_ = left_ + scale_ * width;
         height_ = std::max(height_, scale_ * height);
@@ -195,7 +196,7 @@ class Picture {
     [[nodiscard]] std::string y(Point2 p) const { return number(kMargin + scale_ * (top_ - p.y)); }
 
     std::string title_;
-    double scale_;
+    double scale_ = 1;
     double left_ = 0;
     double right_ = 0;
     double height_ = 0;
@@ -218,7 +219,7 @@ void draw_vertices(Picture& picture, const Tin& tin) {
 }
 
 std::string draw_graphs() {
-    Picture picture("Four graphs of the same samples, each in the next", 11);
+    Picture picture("Four graphs of the same samples, each in the next");
     const Tin tin = triangulated(scattered(20, 20, 48, 1.3, 5));
     std::vector<GraphEdge> tree = make_minimum_spanning_tree(tin.mesh, tin.keys);
     std::sort(tree.begin(), tree.end());
@@ -229,7 +230,7 @@ std::string draw_graphs() {
          {"Delaunay triangulation", edges_of(tin.mesh)}}};
     std::span<const GraphEdge> former;
     for (const auto& [name, edges] : graphs) {
-        picture.begin(name, {0, 0}, 20, 20);
+        picture.begin(name, {0, 0}, 20, 20, 11);
         for (const GraphEdge edge : edges) {
             const bool is_new = !former.empty() && !has(former, edge);
             picture.segment(place(tin, edge.a), place(tin, edge.b), is_new ? kRed : kBlue, 1.8);
@@ -369,17 +370,17 @@ void draw_division(Picture& picture, const Tin& tin, WallPolygon& polygon) {
     const std::array<std::pair<const char*, Point2>, 4> letters{{{"p", p}, {"q", q}, {"r", r}, {"s", s}}};
     const Point2 middle{(p.x + q.x) / 2, (p.y + q.y) / 2};
     for (const auto& [letter, at] : letters) {
-        const double away = 0.55 / distance(middle, at);
-        picture.text({at.x + away * (at.x - middle.x), at.y + away * (at.y - middle.y) - 0.2}, letter,
+        const double away = 0.4 / distance(middle, at);
+        picture.text({at.x + away * (at.x - middle.x), at.y + away * (at.y - middle.y) - 0.1}, letter,
                      "middle", kInk, true);
     }
 }
 
 std::string draw_polygons() {
-    Picture picture("What the relative neighbourhood graph and the hull leave open", 20);
-    const Tin tin = triangulated(scattered(20, 15, 50, 1.1, 38));
+    Picture picture("What the relative neighbourhood graph and the hull leave open");
+    const Tin tin = triangulated(scattered(20, 15, 44, 1.1, 28));
     Subdivision subdivision(tin);
-    picture.begin("walls; polygons that are complete (green) and incomplete (orange)", {0, 0}, 20, 15);
+    picture.begin("walls; polygons: complete (green), incomplete (orange)", {0, 0}, 20, 15, 20);
     std::optional<WallPolygon> largest;
     for (const HalfEdgeId wall : subdivision.polygons()) {
         const WallPolygon polygon = subdivision.trace(wall);
@@ -402,9 +403,9 @@ std::string draw_polygons() {
         low = {std::min(low.x, p.x), std::min(low.y, p.y)};
         high = {std::max(high.x, p.x), std::max(high.y, p.y)};
     }
-    const double side = 15;
-    picture.begin("the largest complete one: its shortest expandable edge pq",
-                  {(low.x + high.x - side) / 2, (low.y + high.y - side) / 2}, side, side);
+    const double side = std::max(high.x - low.x, high.y - low.y) + 2.6;
+    picture.begin("the largest complete one, its edge pq",
+                  {(low.x + high.x - side) / 2, (low.y + high.y - side) / 2}, side, side, 300 / side);
     draw_division(picture, tin, polygon);
     return picture.text();
 }
@@ -417,7 +418,7 @@ void draw_longest(Picture& picture, const Tin& tin, Point2 note) {
     });
     draw_edges(picture, tin, edges, kBlue, 1.8);
     for (const GraphEdge edge : edges) {
-        if (distance(tin, edge) > distance(tin, longest) - 1e-6) {
+        if (distance(tin, edge) > distance(tin, longest) - 0.005) {
             picture.segment(place(tin, edge.a), place(tin, edge.b), kRed, 2.6);
         }
     }
@@ -436,12 +437,12 @@ void minimize(Tin& tin) {
 }
 
 std::string draw_longest_edge() {
-    Picture picture("The longest edges of triangulations", 18);
+    Picture picture("The longest edges of triangulations");
     // An equilateral triangle, and a fourth sample just inside its circle, of radius 5.
     Tin tin = triangulated(std::array<Point2, 4>{Point2{0.5, 5.5}, {8, 1.17}, {8, 9.83}, {10.4, 5.5}});
-    picture.begin("Delaunay", {0, 0}, 11, 11);
+    picture.begin("Delaunay", {0, 0}, 11, 11, 18);
     draw_longest(picture, tin, {11, 10.3});
-    picture.begin("min-max length", {0, 0}, 11, 11);
+    picture.begin("min-max length", {0, 0}, 11, 11, 18);
     minimize(tin);
     draw_longest(picture, tin, {11, 10.3});
 
@@ -459,7 +460,7 @@ std::string draw_longest_edge() {
     }
     tin = triangulated(std::array{x, y, z, u, v, w});
     minimize(tin);
-    picture.begin("caught: xy, yz, zx", {0, 0}, 11, 11);
+    picture.begin("caught: xy, yz, zx", {0, 0}, 11, 11, 18);
     const std::array ring{x, v, y, w, z, u};
     for (std::size_t i = 0; i < ring.size(); ++i) {
         picture.segment(ring.at(i), ring.at((i + 1) % ring.size()), kBlue, 1.8);
@@ -472,7 +473,7 @@ std::string draw_longest_edge() {
     std::array<char, 32> text{};
     std::snprintf(text.data(), text.size(), "%.2f", distance(y, z));
     picture.text({11, 10.3}, text.data(), "end", kRed);
-    picture.begin("min-max length: uv, vw, wu", {0, 0}, 11, 11);
+    picture.begin("min-max length: uv, vw, wu", {0, 0}, 11, 11, 18);
     draw_longest(picture, tin, {11, 10.3});
     const std::array<std::pair<const char*, Point2>, 6> letters{{{"x", {1.3, 1.9}},
                                                                  {"y", {9.7, 1.9}},
@@ -501,17 +502,17 @@ Point2 on_unit_circle(Norm norm, double angle) {
 }
 
 std::string draw_norms() {
-    Picture picture("Relative neighbourhood graphs in three norms", 13);
+    Picture picture("Relative neighbourhood graphs in three norms");
     const Tin tin = triangulated(scattered(20, 20, 48, 1.3, 5));
     const std::vector<GraphEdge> euclidean =
         make_relative_neighborhood_graph(tin.mesh, tin.keys, Norm(), tinwright::LuneRim::Ordered);
     for (const Norm norm : {Norm(), Norm::lp(1), Norm::maximum()}) {
-        picture.begin(norm_name(norm), {0, 0}, 20, 20);
+        picture.begin(norm_name(norm), {0, -3}, 20, 23, 13);
         std::vector<Point2> circle;
         constexpr int kSteps = 72;
         for (int i = 0; i < kSteps; ++i) {
             const Point2 p = on_unit_circle(norm, 2 * std::numbers::pi * i / kSteps);
-            circle.push_back({18 + 1.6 * p.x, -0.4 + 1.6 * p.y});
+            circle.push_back({10 + 1.7 * p.x, -2.2 + 1.7 * p.y});
         }
         picture.polygon(circle, "#eef3f8", kInk, 1.2);
         const std::vector<GraphEdge> edges =
