@@ -30,6 +30,10 @@ void run_read(const Settings& settings);
 void run_criteria(const Settings& settings);
 void run_criteria_growth(const Settings& settings);
 void run_criteria_worst(const Settings& settings);
+/// Min-max length and proximity graphs: ratios to our own Delaunay mesh, growth, and huge polygons.
+void run_length(const Settings& settings);
+void run_length_growth(const Settings& settings);
+void run_length_worst(const Settings& settings);
 /// Lines cut where they meet.
 void run_noding(const Settings& settings);
 /// Lines in the triangulation: constrained Delaunay, and what makes it conforming.

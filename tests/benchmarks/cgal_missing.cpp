@@ -17,6 +17,10 @@ std::vector<std::uint32_t> cgal_faces(std::span<const tinwright::Point3> /*point
     throw std::runtime_error("built without CGAL");
 }
 
+void measure_cgal_spanning_tree(std::span<const tinwright::Point3> /*points*/, Meter& /*meter*/) {
+    throw std::runtime_error("built without CGAL");
+}
+
 void measure_cgal_constrained(const Network& /*network*/, Meter& /*meter*/) {
     throw std::runtime_error("built without CGAL");
 }

@@ -25,6 +25,10 @@ void measure_cgal(std::span<const tinwright::Point3> points, Meter& meter);
 /// Corners of the Delaunay faces of `points`, three indices a face, counter-clockwise.
 std::vector<std::uint32_t> cgal_faces(std::span<const tinwright::Point3> points);
 
+/// Measures Boost's Kruskal on the triangulation of the points, which is made before. Notes the number of
+/// edges.
+void measure_cgal_spanning_tree(std::span<const tinwright::Point3> points, Meter& meter);
+
 /// Distinct points, and segments between them by index, none of which cross.
 struct Network {
     std::vector<tinwright::Point3> points;

@@ -39,6 +39,9 @@ constexpr std::array kBenchmarks{Benchmark{"delaunay", run_delaunay},
                                  Benchmark{"criteria", run_criteria},
                                  Benchmark{"criteria_growth", run_criteria_growth},
                                  Benchmark{"criteria_worst", run_criteria_worst},
+                                 Benchmark{"length", run_length},
+                                 Benchmark{"length_growth", run_length_growth},
+                                 Benchmark{"length_worst", run_length_worst},
                                  Benchmark{"noding", run_noding},
                                  Benchmark{"constrained", run_constrained},
                                  Benchmark{"conforming", run_conforming},
@@ -51,8 +54,8 @@ constexpr std::array kBenchmarks{Benchmark{"delaunay", run_delaunay},
 
 constexpr const char* kUsage =
     "usage: tinwright_benchmarks delaunay|raster|job|read|criteria|criteria_growth|criteria_worst|\n"
-    "                            noding|constrained|conforming|contour|clough_tocher|accuracy|\n"
-    "                            convergence|natural_neighbor|smooth\n"
+    "                            length|length_growth|length_worst|noding|constrained|conforming|contour|\n"
+    "                            clough_tocher|accuracy|convergence|natural_neighbor|smooth\n"
     "           [--rounds K] [--scale FRACTION] [--tinwright COMMAND] [--images FOLDER]\n"
     "           [--data FOLDER] [--sets NAME,...] [--methods METHOD[/GRADIENTS][@CRITERION[:ORDER]],...]\n"
     "Prints a table of docs/benchmarks.md or docs/interpolation.md. Medians of K interleaved runs (default "

@@ -2,7 +2,7 @@
 # Builds the benchmarks, runs them and puts their tables in docs/benchmarks.md or docs/interpolation.md, wherever a
 # table has its mark.
 #   bash tests/benchmarks/run.sh [TABLE...]        tables: delaunay raster read job criteria
-#                                                 criteria_growth criteria_worst noding constrained conforming contour
+#                                                 criteria_growth criteria_worst length length_growth length_worst noding constrained conforming contour
 #                                                 clough_tocher accuracy convergence natural_neighbor smooth (default: all)
 # ROUNDS=k changes the number of interleaved runs of which the median is taken (default 5). SCALE=f takes that part
 # of the points for a quick look. BUILD=folder holds the build. TINWRIGHT_DATA=folder holds the data sets that
@@ -18,8 +18,8 @@ rounds=${ROUNDS:-5}
 scale=${SCALE:-1}
 tables=("$@")
 if [ ${#tables[@]} -eq 0 ]; then
-    tables=(delaunay raster read job criteria criteria_growth criteria_worst noding constrained conforming contour
-        clough_tocher accuracy convergence natural_neighbor smooth)
+    tables=(delaunay raster read job criteria criteria_growth criteria_worst length length_growth length_worst noding
+        constrained conforming contour clough_tocher accuracy convergence natural_neighbor smooth)
 fi
 
 cmake -S "$root" -B "$build" -DCMAKE_BUILD_TYPE=Release -DTINWRIGHT_BUILD_BENCHMARKS=ON

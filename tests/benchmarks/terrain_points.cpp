@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <iterator>
 #include <numbers>
+#include <utility>
 
 #include "support/point_sets.hpp"
 
@@ -93,6 +94,18 @@ Points on_curve(std::uint64_t seed, std::size_t count, Place place) {
     return points;
 }
 
+/// Along a part of the circle; the inner arc's radius is three quarters of the outer one's. Places are moved
+/// a little along their arc.
+Points two_arcs(std::size_t count, double part) {
+    Random random(19);
+    const double step = 2 * std::numbers::pi * part / static_cast<double>(count / 2);
+    return on_curve(19, count, [&random, step](std::size_t i) {
+        const double angle = step * (static_cast<double>(i / 2) + 0.3 * random.real());
+        const double radius = i % 2 == 0 ? 1e9 : 0.75e9;
+        return tinwright::Point2{1e9 + radius * std::cos(angle), 1e9 + radius * std::sin(angle)};
+    });
+}
+
 }  // namespace
 
 Points noisy_points(std::size_t count) {
@@ -159,6 +172,29 @@ Points facing_points(std::size_t count) {
         p.z += kDistance * std::sin(2 * std::numbers::pi * p.x / kLength + (p.y == 0 ? 0 : 2));
     }
     return points;
+}
+
+Points arc_points(std::size_t count) { return two_arcs(count, 5.0 / 6); }
+
+Points ring_points(std::size_t count) { return two_arcs(count, 1); }
+
+Points cluster_points(std::size_t count) {
+    constexpr std::size_t kSize = 1000;
+    Random random(20);
+    const double side = 100 * std::sqrt(static_cast<double>(count));
+    Points points;
+    points.reserve(count);
+    tinwright::Point2 centre{};
+    for (std::size_t i = 0; i < count; ++i) {
+        if (i % kSize == 0) {
+            centre = {side * random.real(), side * random.real()};
+        }
+        const double angle = 2 * std::numbers::pi * random.real();
+        const double reach = 400 * std::pow(random.real(), 2);
+        points.push_back({to_centimetres(side + centre.x + reach * std::cos(angle)),
+                          to_centimetres(side + centre.y + reach * std::sin(angle)), 0});
+    }
+    return on_terrain(std::move(points), fractal_elevation);
 }
 
 Points square_points(std::size_t count) {
