@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # Builds the benchmarks, runs them and puts their tables in docs/benchmarks.md or docs/interpolation.md, wherever a
 # table has its mark.
-#   bash tests/benchmarks/run.sh [TABLE...]        tables: delaunay raster read job criteria
-#                                                 criteria_growth criteria_worst length length_growth length_worst noding constrained conforming contour
-#                                                 clough_tocher accuracy convergence natural_neighbor smooth (default: all)
+#   bash tests/benchmarks/run.sh [TABLE...]        tables: delaunay raster read job criteria criteria_growth
+#                                                 criteria_worst length length_growth length_worst noding
+#                                                 constrained conforming contour clough_tocher accuracy
+#                                                 convergence natural_neighbor smooth (default: all)
 # ROUNDS=k changes the number of interleaved runs of which the median is taken (default 5). SCALE=f takes that part
 # of the points for a quick look. BUILD=folder holds the build. TINWRIGHT_DATA=folder holds the data sets that
 # accuracy is measured on; without it there are only the generated ones.
