@@ -338,8 +338,10 @@ Tin any_small_tin(std::uint64_t seed, std::size_t most) {
 
 std::span<const RingFamily> ring_families() { return kRingFamilies; }
 
-Tin tin_of_ring(const std::vector<Key2>& ring) {
-    Tin tin = delaunay_tin(ring);
+Tin tin_of_ring(const std::vector<Key2>& ring, const std::vector<Key2>& outside) {
+    std::vector<Key2> keys = ring;
+    keys.insert(keys.end(), outside.begin(), outside.end());
+    Tin tin = delaunay_tin(keys);
     std::vector<VertexId> ids;
     for (const Key2 key : ring) {
         const auto place = std::find(tin.keys.begin(), tin.keys.end(), key);

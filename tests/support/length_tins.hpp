@@ -36,8 +36,10 @@ struct RingFamily {
 };
 std::span<const RingFamily> ring_families();
 
-/// The constrained Delaunay TIN of the inside of a counter-clockwise simple polygon.
-tinwright::Tin tin_of_ring(const std::vector<tinwright::Key2>& ring);
+/// The constrained Delaunay TIN of the inside of a counter-clockwise simple polygon; outside of it there may
+/// be more vertices, of which no terrain is made.
+tinwright::Tin tin_of_ring(const std::vector<tinwright::Key2>& ring,
+                           const std::vector<tinwright::Key2>& outside = {});
 
 /// Tries to make as many random segments between vertices constrained edges, where they cross none.
 void add_segments_at_random(Random& random, tinwright::Tin& tin, int count);
