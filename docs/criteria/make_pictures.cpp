@@ -327,16 +327,19 @@ void draw_walls(Picture& picture, const Tin& tin, const Subdivision& subdivision
 
 /// The faces that the two ends of a divided polygon's edge lead to, drawn.
 void draw_division(Picture& picture, const Tin& tin, WallPolygon& polygon) {
-    // No pair is longer than this one.
-    GraphEdge longest{{0}, {1}};
+    std::vector<GraphEdge> pairs;
     for (std::uint32_t a = 0; a < tin.vertex_count(); ++a) {
         for (std::uint32_t b = a + 1; b < tin.vertex_count(); ++b) {
-            longest = distance(tin, longest) < distance(tin, {{a}, {b}}) ? GraphEdge{{a}, {b}} : longest;
+            pairs.push_back({{a}, {b}});
         }
     }
+    const auto [nearest, farthest] =
+        std::minmax_element(pairs.begin(), pairs.end(),
+                            [&](GraphEdge x, GraphEdge y) { return distance(tin, x) < distance(tin, y); });
     const auto poll = [] { return true; };
-    const auto best =
-        tinwright::internal::ExpandableEdgeSearch(polygon).find(longest.a, longest.b, poll).value();
+    const auto best = tinwright::internal::ExpandableEdgeSearch(polygon)
+                          .find_among_many({nearest->a, nearest->b}, {farthest->a, farthest->b}, poll)
+                          .value();
     std::vector<tinwright::CavityFace> faces;
     tinwright::internal::IncompletePolygon parts(polygon);
     if (!parts.triangulate(best.low, best.high, {}, faces, poll)) {
