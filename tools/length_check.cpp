@@ -37,7 +37,10 @@ std::string promise_text(const LengthCheck& check) {
 }
 
 std::string polygons_text(std::size_t count) {
-    return std::to_string(count) + (count == 1 ? " polygon" : " polygons");
+    if (count == 0) {
+        return "no polygon had to be triangulated anew";
+    }
+    return std::to_string(count) + (count == 1 ? " polygon" : " polygons") + " triangulated anew";
 }
 
 /// Feature id of the first face that has the edge.
@@ -93,7 +96,7 @@ std::string length_verdict(const LengthCheck& check) {
         text += "is not proven: --all looks at polygons of more than " +
                 std::to_string(check.largest_polygon.value_or(0)) + " sides too";
     }
-    text += " (" + polygons_text(certificate.polygons) + " triangulated anew";
+    text += " (" + polygons_text(certificate.polygons);
     if (certificate.left_out > 0) {
         text += ", " + std::to_string(certificate.left_out) + " left out";
     }

@@ -165,9 +165,10 @@ TEST_SUITE("tools/optimality_check") {
         REQUIRE(broken.length.has_value());
         CHECK(broken.improvable() == 1);
         CHECK(broken.listed.front().face == 7);
-        CHECK(optimality_verdict(broken) ==
-              "length, norm l2: the longest edge, 100 from (0, 0) to (100, 0), can be 50.9902 (1 polygon "
-              "triangulated anew); the file does not tell that it was made for this criterion");
+        CHECK(
+            optimality_verdict(broken) ==
+            "length, norm l2: the longest edge, 100 from (0, 0) to (100, 0), can be 50.9902 (no polygon had "
+            "to be triangulated anew); the file does not tell that it was made for this criterion");
         CHECK(improvable_lines(broken, "a.gpkg") ==
               "a.gpkg: face 7: longest edge, 100 from (0, 0) to (100, 0), can be 50.9902\n");
 

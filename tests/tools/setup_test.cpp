@@ -220,8 +220,9 @@ TEST_SUITE("tools/setup") {
         CHECK(tin("angle", {"--budget", "5s"}) == "--budget needs a number above zero, not \"5s\"");
         CHECK(tin("delaunay", {"--scope", "max"}) ==
               "--scope is for optimising: give --criterion slope, height, angle or eccentricity too");
-        CHECK(complaint<CommandGrid>({"a.csv", "-o", "b.tif", "--budget", "5"}) ==
-              "--budget is for optimising: give --criterion slope, height, angle or eccentricity too");
+        CHECK(
+            complaint<CommandGrid>({"a.csv", "-o", "b.tif", "--budget", "5"}) ==
+            "--budget is for optimising: give --criterion slope, height, angle, eccentricity or length too");
     }
 
     TEST_CASE("length has a norm, and no scope but the longest edge") {
