@@ -14,15 +14,22 @@ namespace tinwright {
 namespace {
 
 constexpr std::size_t kOctants = 8;
+/// Only in these is a neighbour looked for: the other end of an edge finds it in the opposite octant.
+constexpr int kOctantsLookedAt = 4;
 /// More than rounding can take from a reach, of a few operations.
 constexpr double kMargin = 1 + 0x1p-40;
 
+// Of the norm, the greatest Euclidean length of what has length 1, squared. Up to p = 2 that is along an
+// axis, from there on along a diagonal.
 double find_widest(Norm norm) {
     if (norm.is_maximum()) {
         return 2;
     }
-    return norm.power() == 1 ? 1 : std::exp2(1 - 2.0 / norm.power());  // along a diagonal
+    return norm.power() == 1 ? 1 : std::exp2(1 - 2.0 / norm.power());
 }
+
+// The length of (1, 1) less that of (1, 0).
+double find_slant(Norm norm) { return norm.is_maximum() ? 0 : std::exp2(1.0 / norm.power()) - 1; }
 
 }  // namespace
 
@@ -31,11 +38,13 @@ OctantSearch::OctantSearch(const TriangleMesh& mesh, std::span<const Key2> keys,
       keys_(keys),
       lengths_(keys, norm),
       rim_(rim),
-      widest_(find_widest(norm)),
+      widest_(find_widest(norm) * kMargin),
+      slant_(find_slant(norm)),
       view_(mesh, keys) {}
 
 void OctantSearch::find(VertexId p, HalfEdgeId start, std::vector<GraphEdge>& edges) {
     p_ = p;
+    eye_ = keys_[p.value];
     found_.clear();
     is_around_ = true;
     HalfEdgeId h = start;
@@ -55,7 +64,7 @@ void OctantSearch::find(VertexId p, HalfEdgeId start, std::vector<GraphEdge>& ed
         const bool is_first = i == 0 || found_[i - 1].vertex != found_[i].vertex;
         const bool is_again = i + 1 < found_.size() && found_[i + 1].vertex == found_[i].vertex;
         if (is_first && (!found_[i].is_wall_between || is_again)) {
-            edges.push_back({p, found_[i].vertex});
+            edges.push_back({std::min(p, found_[i].vertex), std::max(p, found_[i].vertex)});
         }
     }
 }
@@ -67,7 +76,8 @@ bool OctantSearch::starts_corner(HalfEdgeId h) const {
 
 // What is nearest in an octant is seen first, and most candidates are blocked by that already.
 void OctantSearch::find_in_corner(HalfEdgeId first) {
-    first_ = mesh_->destination(first);
+    first_ = keys_[mesh_->destination(first).value];
+    first_octant_ = octant(eye_, first_);
     look_for_nearest(first);
     choose_candidates();
     drop_blocked();
@@ -79,18 +89,22 @@ void OctantSearch::find_in_corner(HalfEdgeId first) {
 }
 
 void OctantSearch::look_for_nearest(HalfEdgeId first) {
-    nearest_.fill(std::numeric_limits<double>::infinity());
+    for (std::size_t i = 0; i < nearest_.size(); ++i) {
+        const bool is_looked_at =
+            (static_cast<std::size_t>(first_octant_) + i) % kOctants < std::size_t{kOctantsLookedAt};
+        nearest_[i] = is_looked_at ? std::numeric_limits<double>::infinity() : 0;
+    }
     view_.look(
         first, [&](HalfEdgeId h) { return mesh_->is_constrained(h); },
         [&](HalfEdgeId edge, VertexId right, VertexId left) {
-            return may_hide(edge, squared_reach_between(right, left));
+            return may_hide(edge, squared_reach_between(keys_[right.value], keys_[left.value]));
         });
 }
 
 void OctantSearch::look_as_far_as_candidates(HalfEdgeId first) {
     double reach = 0;
     for (const Candidate& candidate : candidates_) {
-        reach = std::max(reach, squared_reach(candidate.vertex));
+        reach = std::max(reach, squared_reach(keys_[candidate.vertex.value]));
     }
     view_.look(
         first, [&](HalfEdgeId h) { return mesh_->is_constrained(h); },
@@ -116,7 +130,11 @@ void OctantSearch::choose_candidates() {
     int last = -1;
     for (std::size_t i = 0; i < seen.size(); ++i) {
         const VertexId v = seen[i].vertex;
-        const int here = octant(keys_[p_.value], keys_[v.value]);
+        const int here = octant(eye_, keys_[v.value]);
+        if (here >= kOctantsLookedAt) {
+            last = here;
+            continue;
+        }
         if (here != last) {
             last = here;
             begin = candidates_.size();
@@ -132,8 +150,6 @@ void OctantSearch::choose_candidates() {
             candidates_.push_back(candidate(i));
         }
     }
-    // The others find this vertex from theirs.
-    std::erase_if(candidates_, [&](const Candidate& candidate) { return candidate.vertex < p_; });
 }
 
 OctantSearch::Candidate OctantSearch::candidate(std::size_t index) const {
@@ -160,7 +176,7 @@ bool OctantSearch::is_blocked(const Candidate& q) const {
             continue;
         }
         // Between directions of more than 180 degrees there is a wall on the other, narrow side.
-        const int turn = orient2d(keys_[p_.value], keys_[q.vertex.value], keys_[x.value]);
+        const int turn = orient2d(eye_, keys_[q.vertex.value], keys_[x.value]);
         if (is_around_ || (i > q.index ? turn > 0 : turn < 0)) {
             return true;
         }
@@ -168,18 +184,15 @@ bool OctantSearch::is_blocked(const Candidate& q) const {
     return false;
 }
 
-// Number of the octant in which v is seen, from that of the corner's first vertex on. All around there are 8;
-// otherwise what comes last may be in the first's octant again, with a wall between them.
-std::size_t OctantSearch::slot(VertexId v) const {
-    const Key2 eye = keys_[p_.value];
-    const Key2 first = keys_[first_.value];
-    const Key2 key = keys_[v.value];
-    const auto turns = static_cast<std::size_t>(octant(eye, key) - octant(eye, first) + 8) % kOctants;
-    return turns == 0 && !is_around_ && orient2d(eye, first, key) < 0 ? kOctants : turns;
+// Number of the octant in which a key is seen, from that of the corner's first vertex on. All around there
+// are 8; otherwise what comes last may be in the first's octant again, with a wall between them.
+std::size_t OctantSearch::slot(Key2 key) const {
+    const auto turns = static_cast<std::size_t>(octant(eye_, key) - first_octant_ + 8) % kOctants;
+    return turns == 0 && !is_around_ && orient2d(eye_, first_, key) < 0 ? kOctants : turns;
 }
 
 // The greatest reach of the octants between two directions.
-double OctantSearch::squared_reach_between(VertexId right, VertexId left) {
+double OctantSearch::squared_reach_between(Key2 right, Key2 left) {
     const std::size_t count = is_around_ ? kOctants : kOctants + 1;
     const std::size_t begin = slot(right);
     std::size_t end = slot(left);
@@ -189,33 +202,26 @@ double OctantSearch::squared_reach_between(VertexId right, VertexId left) {
     }
     nearest_[end] = std::min(nearest_[end], squared_reach(left));
     double reach = nearest_[end];
-    for (std::size_t i = begin; i != end; i = (i + 1) % count) {
+    for (std::size_t i = begin; i != end; i = i + 1 == count ? 0 : i + 1) {
         reach = std::max(reach, nearest_[i]);
     }
     return reach;
 }
 
-// Square of the greatest Euclidean distance from p of what is not farther than v, or more. For p of 3 and
-// more the length is that of (l, s), s <= l: l (1 + (s / l)^p)^(1/p) <= l (1 + (s / l)^3 / 3).
-double OctantSearch::squared_reach(VertexId v) const {
-    const double x = std::abs(keys_[v.value].x - keys_[p_.value].x);
-    const double y = std::abs(keys_[v.value].y - keys_[p_.value].y);
-    const double large = std::max(x, y);
-    const double small = std::min(x, y);
-    double length = large;
-    if (!lengths_.norm().is_maximum()) {
-        const double ratio = small / large;
-        length = lengths_.norm().power() == 1 ? large + small : large * (1 + ratio * ratio * ratio / 3);
-    }
-    return length * length * widest_ * kMargin;
+// Square of the greatest Euclidean distance from p of what is not farther than v, or more. The length of (1,
+// t) is convex in t, so for t from 0 to 1 it is not above its chord.
+double OctantSearch::squared_reach(Key2 key) const {
+    const double x = std::abs(key.x - eye_.x);
+    const double y = std::abs(key.y - eye_.y);
+    const double length = std::max(x, y) + std::min(x, y) * slant_;
+    return length * length * widest_;
 }
 
 // Whether a vertex within that distance may be seen through an edge: the argument is at
 // HalfLuneSearch::may_hide.
 bool OctantSearch::may_hide(HalfEdgeId edge, double squared_reach) const {
-    const Key2 eye = keys_[p_.value];
-    return squared_distance(eye, keys_[mesh_->origin(edge).value]) < squared_reach ||
-           squared_distance(eye, keys_[mesh_->destination(edge).value]) < squared_reach;
+    return squared_distance(eye_, keys_[mesh_->origin(edge).value]) < squared_reach ||
+           squared_distance(eye_, keys_[mesh_->destination(edge).value]) < squared_reach;
 }
 
 }  // namespace tinwright

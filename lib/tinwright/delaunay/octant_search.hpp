@@ -23,7 +23,8 @@ class OctantSearch {
     /// Both must outlive the search.
     OctantSearch(const TriangleMesh& mesh, std::span<const Key2> keys, Norm norm, LuneRim rim);
 
-    /// Appends the edges from `p` to neighbours of greater number, ascending. `start`: a half-edge from `p`.
+    /// Appends the edges from `p` to neighbours in its octants 0 to 3: of all vertices, every edge once.
+    /// `start`: a half-edge from `p`.
     void find(VertexId p, HalfEdgeId start, std::vector<GraphEdge>& edges);
 
   private:
@@ -43,20 +44,23 @@ class OctantSearch {
     void drop_blocked();
     [[nodiscard]] bool is_blocked(const Candidate& q) const;
 
-    [[nodiscard]] std::size_t slot(VertexId v) const;
-    [[nodiscard]] double squared_reach_between(VertexId right, VertexId left);
-    [[nodiscard]] double squared_reach(VertexId v) const;
+    [[nodiscard]] std::size_t slot(Key2 key) const;
+    [[nodiscard]] double squared_reach_between(Key2 right, Key2 left);
+    [[nodiscard]] double squared_reach(Key2 key) const;
     [[nodiscard]] bool may_hide(HalfEdgeId edge, double squared_reach) const;
 
     const TriangleMesh* mesh_;
     std::span<const Key2> keys_;
     LengthOrder lengths_;
     LuneRim rim_;
-    double widest_;  // square of the Euclidean length of what is longest in it for its length in the norm
+    double widest_;  // a little above the square of the greatest Euclidean length of what has length 1
+    double slant_;   // length of (1, 1) less that of (1, 0)
     CornerView view_;
 
     VertexId p_{};
-    VertexId first_{};  // of the corner
+    Key2 eye_{};
+    Key2 first_{};  // seen in the corner
+    int first_octant_ = 0;
     bool is_around_ = false;
     std::array<double, 9> nearest_{};  // squared reach of the nearest seen so far, by slots
     std::vector<Candidate> candidates_;

@@ -112,7 +112,6 @@ std::vector<GraphEdge> list_row(const TriangleMesh& mesh) {
     return list_edges(mesh, marks);
 }
 
-// Vertices are taken in blocks, whose edges follow each other.
 std::vector<GraphEdge> search_octants(const TriangleMesh& mesh, std::span<const Key2> keys, Norm norm,
                                       LuneRim rim, const Progress& progress) {
     const std::vector<HalfEdgeId> starts = find_starts(mesh);
@@ -134,6 +133,7 @@ std::vector<GraphEdge> search_octants(const TriangleMesh& mesh, std::span<const 
     for (const std::vector<GraphEdge>& of_block : found) {
         edges.insert(edges.end(), of_block.begin(), of_block.end());
     }
+    tbb::parallel_sort(edges.begin(), edges.end());
     report_progress(progress, 1);
     return edges;
 }
