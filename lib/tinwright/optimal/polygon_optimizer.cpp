@@ -8,6 +8,9 @@ namespace tinwright::internal {
 
 void PolygonOptimizer::run(PolygonTask& task, const Poll& poll) {
     polygon_.trace(task.wall);
+    if (polygon_.faces().size() + 2 != polygon_.size()) {
+        return;  // walls that hang together leave no islands; these are of another triangulation's graph
+    }
     const std::optional<std::uint32_t> long_side = find_shortest_long_side();
     const HalfEdgeId longest = longest_diagonal();
     task.is_incomplete = long_side.has_value();
