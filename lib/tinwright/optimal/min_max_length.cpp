@@ -127,7 +127,7 @@ void LengthOptimizer::insert_graph(const Progress& progress) {
         for (unsigned i = 0; i < 3 && mesh.is_terrain({f}); ++i) {
             const HalfEdgeId h = half_edge({f}, i);
             const auto [a, b] = std::minmax({mesh.origin(h), mesh.destination(h)});
-            if (mesh.is_constrained(h) || mesh.is_border(h)) {
+            if (mesh.is_constrained(h)) {
                 constrained.push_back({a, b});
             }
         }
