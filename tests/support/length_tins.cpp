@@ -59,7 +59,8 @@ Tin facing_arcs(Random& random, std::size_t count) {
     const double gap = radius * step * (0.5 + 2 * random.real());
     Keys keys;
     for (std::size_t i = 0; i < count; ++i) {
-        const double angle = 0.3 + step * (static_cast<double>(i / 2) + 0.2 * random.real());
+        const std::size_t place = i / 2;
+        const double angle = 0.3 + step * (static_cast<double>(place) + 0.2 * random.real());
         keys.push_back(polar(200000, angle, radius + (i % 2 == 0 ? 0 : gap)));
     }
     return flat_tin(keys);
@@ -245,7 +246,7 @@ void uncross(Keys& keys) {
 template <int kSize>
 Keys tangle(Random& random, std::size_t sides) {
     return simple_ring([&] {
-        std::vector<Key2> keys(kSize < 100 ? std::min<std::size_t>(sides, kSize * 2) : sides);
+        std::vector<Key2> keys(kSize < 100 ? std::min(sides, std::size_t{2} * kSize) : sides);
         std::generate(keys.begin(), keys.end(), [&] { return Key2{random.key(kSize), random.key(kSize)}; });
         keys = shuffled(random, without_repetitions(keys));
         uncross(keys);

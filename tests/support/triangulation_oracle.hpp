@@ -29,7 +29,7 @@ struct Sites {
 
 /// A point with elevation.
 struct Site {
-    tinwright::Key2 key;
+    tinwright::Key2 key{};
     double z = 0;
 };
 
