@@ -18,26 +18,40 @@ unsigned HalfLuneSearch::find_occupied(FaceId f) const {
     return lengths_.is_in_open_lune(v[previous_corner(longest)], v[longest], v[end]) ? longest : 3;
 }
 
+// Turning about both ends by turns, done when one of them is, costs the lesser degree for each edge. Those
+// sum to a multiple of the number of edges in a plane graph, whereas a hub's degree squared might be spent on
+// its edges.
 bool HalfLuneSearch::is_empty(HalfEdgeId h) {
     if (is_lune_in_circle(h)) {
         return true;
     }
     const VertexId p = mesh_->origin(h);
     const VertexId q = mesh_->destination(h);
-    HalfEdgeId spoke = h;
+    Turn about_p{p, q, h, true};
+    Turn about_q{q, p, next(h), false};
     for (;;) {
-        if (!is_empty_behind(next(spoke), p, q)) {
-            return false;
-        }
-        const HalfEdgeId incoming = previous(spoke);  // the face's other edge at p
-        if (is_closed(incoming) || is_beyond_lune(p, q, mesh_->origin(incoming))) {
-            return true;
-        }
-        spoke = mesh_->twin(incoming);
-        if (is_in_lune(mesh_->origin(previous(spoke)), p, q)) {
-            return false;
+        for (Turn* turn : {&about_p, &about_q}) {
+            const Found found = look_on(*turn);
+            if (found != Found::NothingYet) {
+                return found == Found::Nothing;
+            }
         }
     }
+}
+
+// Looks behind the face, then enters the next one.
+HalfLuneSearch::Found HalfLuneSearch::look_on(Turn& turn) {
+    if (!is_empty_behind(next(turn.corner), turn.eye, turn.other)) {
+        return Found::Vertex;
+    }
+    const auto spoke = [&] { return turn.is_left ? previous(turn.corner) : turn.corner; };
+    const auto end = [&] { return mesh_->origin(turn.is_left ? spoke() : next(spoke())); };
+    if (is_closed(spoke()) || is_beyond_lune(turn.eye, turn.other, end())) {
+        return Found::Nothing;
+    }
+    const HalfEdgeId behind = mesh_->twin(spoke());
+    turn.corner = turn.is_left ? behind : next(behind);
+    return is_in_lune(end(), turn.eye, turn.other) ? Found::Vertex : Found::NothingYet;
 }
 
 // The edge p q is seen from its half-lune at 60 degrees or more, and at less from what is outside the circle

@@ -35,12 +35,21 @@ class HalfLuneSearch {
         VertexId left;
     };
 
+    struct Turn {
+        VertexId eye;       // one end of the edge
+        VertexId other;     // the other end
+        HalfEdgeId corner;  // from the eye, of the face that was reached
+        bool is_left;       // counter-clockwise
+    };
+    enum class Found { Nothing, NothingYet, Vertex };
+
     [[nodiscard]] bool is_closed(HalfEdgeId h) const {
         return mesh_->is_constrained(h) || !mesh_->is_terrain(face_of(mesh_->twin(h)));
     }
     [[nodiscard]] bool is_in_lune(VertexId x, VertexId p, VertexId q) const {
         return rim_ == LuneRim::Ordered ? lengths_.is_in_lune(x, p, q) : lengths_.is_in_open_lune(x, p, q);
     }
+    [[nodiscard]] Found look_on(Turn& turn);
     [[nodiscard]] bool is_lune_in_circle(HalfEdgeId h) const;
     [[nodiscard]] bool is_beyond_lune(VertexId p, VertexId q, VertexId spoke) const;
     [[nodiscard]] bool is_empty_behind(HalfEdgeId far, VertexId p, VertexId q);
