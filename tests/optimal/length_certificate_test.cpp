@@ -10,6 +10,7 @@
 
 #include "optimal/length_checks.hpp"
 #include "support/cases.hpp"
+#include "support/ring_sets.hpp"
 
 using namespace tinwright;
 using namespace tinwright_tests;

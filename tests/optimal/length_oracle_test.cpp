@@ -42,6 +42,7 @@ void for_small_tins(int count, std::size_t most, const Check& check) {
 std::uint32_t least_by_regions(Tin tin, const oracle::LengthRanks& ranks) {
     const std::set<oracle::Edge> graph = oracle::relative_neighbors(tin, ranks);
     std::vector<Segment> segments;
+    segments.reserve(graph.size());
     for (const oracle::Edge& edge : graph) {
         segments.push_back({{edge[0]}, {edge[1]}});
     }
@@ -101,7 +102,10 @@ TEST_SUITE("optimal/length_oracle") {
             const oracle::LengthRanks ranks(norm, tin.keys);
             const auto n = static_cast<std::uint32_t>(tin.vertex_count());
             for (std::uint32_t i = 0; i + 3 < n * n; ++i) {
-                const std::uint32_t a = i % n, b = (i + 1) % n, c = i / n, d = (7 * i) % n;
+                const std::uint32_t a = i % n;
+                const std::uint32_t b = (i + 1) % n;
+                const std::uint32_t c = i / n;
+                const std::uint32_t d = 7 * i % n;
                 const auto sign = [](auto x, auto y) { return x < y ? -1 : x > y ? 1 : 0; };
                 CHECK(sign(ranks.rank(a, b), ranks.rank(c, d)) ==
                       oracle::compare_lengths(norm, tin.keys[a], tin.keys[b], tin.keys[c], tin.keys[d]));

@@ -12,7 +12,7 @@
 #include "support/point_sets.hpp"
 #include "support/random_tins.hpp"
 
-/// TINs and polygons on which the longest edge is hard to make short: nearly equal lengths, and long edges
+/// TINs on which the longest edge is hard to make short: nearly equal lengths, and long edges
 /// that Delaunay has and need not have.
 namespace tinwright_tests {
 
@@ -28,13 +28,6 @@ std::vector<TinFamily> all_tin_families();
 /// A constrained Delaunay TIN of up to `most` vertices, of any family: every second has constrained edges, of
 /// these some voids, some cracks. Without faces if all vertices are collinear.
 tinwright::Tin any_small_tin(std::uint64_t seed, std::size_t most);
-
-/// A kind of simple polygons; `make` gives a counter-clockwise ring of about `sides` sides.
-struct RingFamily {
-    const char* name;
-    std::vector<tinwright::Key2> (*make)(Random& random, std::size_t sides);
-};
-std::span<const RingFamily> ring_families();
 
 /// The constrained Delaunay TIN of the inside of a counter-clockwise simple polygon; outside of it there may
 /// be more vertices, of which no terrain is made.
