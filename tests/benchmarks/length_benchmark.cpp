@@ -65,11 +65,11 @@ std::function<Measured()> shortening(const Points& points, Norm norm, int thread
 }
 
 /// What all ratios are taken to: the mesh of keys that are in order and differ.
-std::function<Measured()> delaunay(const Points& points, int threads) {
-    const Work work = [&points, threads](Meter& meter) {
+std::function<Measured()> delaunay(const Points& points) {
+    const Work work = [&points](Meter& meter) {
         const tinwright::SampleVertices vertices = tinwright::make_sample_vertices(points);
         meter.start();
-        tbb::task_arena(threads).execute([&] {
+        tbb::task_arena(1).execute([&] {
             const TriangleMesh mesh = tinwright::make_delaunay(vertices.keys);
             meter.stop();
             meter.note(static_cast<double>(mesh.slot_count()));
@@ -78,30 +78,10 @@ std::function<Measured()> delaunay(const Points& points, int threads) {
     return [work] { return measure_in_child(work); };
 }
 
-using MakeGraph = std::vector<GraphEdge> (*)(const TriangleMesh&, Keys);
-
-std::vector<GraphEdge> make_tree(const TriangleMesh& mesh, Keys keys) {
-    return make_minimum_spanning_tree(mesh, keys);
-}
-template <int P>
-std::vector<GraphEdge> make_relative(const TriangleMesh& mesh, Keys keys) {
-    const Norm norm = P > 0 ? Norm::lp(std::max(P, 1)) : Norm::maximum();
-    return make_relative_neighborhood_graph(mesh, keys, norm);
-}
-
-struct Graph {
-    const char* name;
-    MakeGraph make;
-};
-constexpr std::array kGraphs{Graph{"minimum spanning tree", make_tree},
-                             Graph{"Gabriel graph", tinwright::make_gabriel_graph},
-                             Graph{"relative neighbourhood graph", make_relative<2>},
-                             Graph{"the same, l1", make_relative<1>},
-                             Graph{"the same, linf", make_relative<0>},
-                             Graph{"the same, lp:3", make_relative<3>}};
+using MakeGraph = std::function<std::vector<GraphEdge>(const TriangleMesh&, Keys)>;
 
 /// A graph from the Delaunay mesh at hand to its edges. Notes their number.
-std::function<Measured()> graph(const Points& points, MakeGraph make, int threads) {
+std::function<Measured()> graph(const Points& points, const MakeGraph& make, int threads) {
     const Work work = [&points, make, threads](Meter& meter) {
         const tinwright::SampleVertices vertices = tinwright::make_sample_vertices(points);
         const TriangleMesh mesh = tinwright::make_delaunay(vertices.keys);
@@ -115,20 +95,25 @@ std::function<Measured()> graph(const Points& points, MakeGraph make, int thread
     return [work] { return measure_in_child(work); };
 }
 
-/// One thread for the ratio to the mesh, two for what they gain.
+std::vector<GraphEdge> make_tree(const TriangleMesh& mesh, Keys keys) {
+    return make_minimum_spanning_tree(mesh, keys);
+}
+
+/// Ratios to the mesh on one thread, and what two gain.
 class Comparison {
   public:
     Comparison(std::string set, const Points& points)
-        : set_(std::move(set)), points_(points), contenders_{delaunay(points, 1)} {}
+        : set_(std::move(set)), points_(points), contenders_{delaunay(points)} {}
 
-    void add(std::string name, const std::function<std::function<Measured()>(int)>& with_threads,
-             std::optional<Target> target = std::nullopt) {
-        rows_.push_back({std::move(name), target});
-        contenders_.push_back(with_threads(1));
-        contenders_.push_back(with_threads(2));
+    void add_shortening(const std::string& name, Norm norm, std::optional<Target> target = std::nullopt) {
+        add("min-max length" + name, target, [&](int threads) { return shortening(points_, norm, threads); });
+    }
+    void add_graph(const std::string& name, const MakeGraph& make) {
+        add(name, std::nullopt, [&](int threads) { return graph(points_, make, threads); });
     }
 
-    void report(int rounds, ResultTable& table) const {
+    /// Returns the figures of the first that was added.
+    Measured report(int rounds, ResultTable& table) const {
         const std::vector<Measured> results = measure_in_turn(contenders_, rounds);
         const Measured& base = results[0];
         for (std::size_t i = 0; i < rows_.size(); ++i) {
@@ -140,11 +125,7 @@ class Comparison {
             table.add(name + ", two threads to one", in_seconds(two.wall_seconds),
                       in_seconds(one.wall_seconds), one.wall_seconds / two.wall_seconds, std::nullopt, "x");
         }
-        // The first row is the optimum itself.
-        const double bytes = results[1].peak_bytes / static_cast<double>(points_.size());
-        table.add(set_ + ": memory of min-max length over the TIN", number(bytes) + " bytes a vertex", "",
-                  bytes, std::nullopt, " bytes");
-        table.add(set_ + ": sides of the largest polygon", number(results[1].note), "", std::nullopt);
+        return results[1];
     }
 
   private:
@@ -152,28 +133,46 @@ class Comparison {
         std::string name;
         std::optional<Target> target;
     };
+
+    template <class WithThreads>
+    void add(const std::string& name, std::optional<Target> target, WithThreads with_threads) {
+        rows_.push_back({name, target});
+        contenders_.push_back(with_threads(1));
+        contenders_.push_back(with_threads(2));
+    }
+
     std::string set_;
     const Points& points_;
     std::vector<std::function<Measured()>> contenders_;
     std::vector<Row> rows_;
 };
 
-void measure_set(const PointSet& set, std::size_t count, std::optional<Target> target, int rounds,
-                 ResultTable& table) {
+void measure_euclidean(const PointSet& set, std::size_t count, std::optional<Target> target, int rounds,
+                       ResultTable& table) {
     const Points points = set.make(count);
     Comparison comparison(set.name, points);
-    const std::array<std::pair<std::string, Norm>, 4> norms{{{"min-max length", Norm()},
-                                                             {"min-max length, l1", Norm::lp(1)},
-                                                             {"min-max length, linf", Norm::maximum()},
-                                                             {"min-max length, lp:3", Norm::lp(3)}}};
-    for (const auto& [name, norm] : norms) {
-        comparison.add(
-            name, [&points, norm = norm](int threads) { return shortening(points, norm, threads); },
-            norm.is_euclidean() ? target : std::nullopt);
-    }
-    for (const Graph& one : kGraphs) {
-        comparison.add(one.name,
-                       [&points, make = one.make](int threads) { return graph(points, make, threads); });
+    comparison.add_shortening("", Norm(), target);
+    comparison.add_graph("minimum spanning tree", make_tree);
+    comparison.add_graph("Gabriel graph", tinwright::make_gabriel_graph);
+    comparison.add_graph("relative neighbourhood graph", [](const TriangleMesh& mesh, Keys keys) {
+        return make_relative_neighborhood_graph(mesh, keys);
+    });
+    const Measured shortened = comparison.report(rounds, table);
+    const double bytes = shortened.peak_bytes / static_cast<double>(points.size());
+    table.add(set.name + ": memory of min-max length over the TIN", number(bytes) + " bytes a vertex", "",
+              bytes, std::nullopt, " bytes");
+    table.add(set.name + ": the largest polygon", "", "", shortened.note, std::nullopt, " sides");
+}
+
+void measure_norms(const PointSet& set, std::size_t count, int rounds, ResultTable& table) {
+    const Points points = set.make(count);
+    Comparison comparison(set.name, points);
+    for (const Norm norm : {Norm::lp(1), Norm::maximum(), Norm::lp(3)}) {
+        comparison.add_shortening(", " + norm_name(norm), norm);
+        comparison.add_graph("relative neighbourhood graph, " + norm_name(norm),
+                             [norm](const TriangleMesh& mesh, Keys keys) {
+                                 return make_relative_neighborhood_graph(mesh, keys, norm);
+                             });
     }
     comparison.report(rounds, table);
 }
@@ -209,8 +208,12 @@ void run_length(const Settings& settings) {
                       "`make_delaunay`");
     for (const PointSet& set : sets) {
         const std::optional<Target> target = &set == sets.data() ? at_most(8) : std::nullopt;
-        measure_set(set, settings.count(1e6), target, settings.rounds, table);
+        measure_euclidean(set, settings.count(1e6), target, settings.rounds, table);
     }
+    for (const PointSet& set : {sets[0], sets[1], sets[2]}) {
+        measure_norms(set, settings.count(1e6), settings.rounds, table);
+    }
+    measure_norms({"clusters, 10^4 points", cluster_points}, settings.count(1e4), settings.rounds, table);
     compare_trees(sets[0], settings.count(1e6), settings.rounds, table);
 }
 
@@ -236,21 +239,24 @@ void run_length_growth(const Settings& settings) {
 }
 
 void run_length_worst(const Settings& settings) {
-    const std::array<PointSet, 3> sets{PointSet{"two arcs", arc_points}, PointSet{"two circles", ring_points},
+    const std::array<PointSet, 2> sets{PointSet{"two arcs", arc_points},
                                        PointSet{"one circle", circle_points}};
     ResultTable table("Huge polygons, one thread", "`minimize_longest_edge`", "largest polygon");
     for (const PointSet& set : sets) {
         Growth growth{set.name, {}};
         for (const double full : {1000, 2000, 4000, 8000, 16000}) {
-            const Points points = set.make(static_cast<std::size_t>(std::max(100.0, full * settings.scale)));
+            const Points points = set.make(static_cast<std::size_t>(std::max(200.0, full * settings.scale)));
             const std::function<Measured()> run = shortening(points, Norm(), 1);
             Measured result = run();
             if (result.cpu_seconds < kLongSeconds) {
                 result = measure_in_turn(std::span(&run, 1), settings.rounds)[0];
             }
-            growth.steps.push_back({static_cast<double>(points.size()), result.cpu_seconds});
+            const auto count = static_cast<double>(points.size());
+            growth.steps.push_back({count, result.cpu_seconds});
             table.add(set.name + ": " + std::to_string(points.size()) + " points",
-                      in_seconds(result.cpu_seconds), number(result.note) + " sides", std::nullopt);
+                      in_seconds(result.cpu_seconds),
+                      std::to_string(static_cast<long>(result.note)) + " sides",
+                      1e6 * result.cpu_seconds / count, std::nullopt, " us a point");
         }
         table.add(set.name + ": exponent of the growth", "", "", growth.exponent());
     }

@@ -94,18 +94,6 @@ Points on_curve(std::uint64_t seed, std::size_t count, Place place) {
     return points;
 }
 
-/// Along a part of the circle; the inner arc's radius is three quarters of the outer one's. Places are moved
-/// a little along their arc.
-Points two_arcs(std::size_t count, double part) {
-    Random random(19);
-    const double step = 2 * std::numbers::pi * part / static_cast<double>(count / 2);
-    return on_curve(19, count, [&random, step](std::size_t i) {
-        const double angle = step * (static_cast<double>(i / 2) + 0.3 * random.real());
-        const double radius = i % 2 == 0 ? 1e9 : 0.75e9;
-        return tinwright::Point2{1e9 + radius * std::cos(angle), 1e9 + radius * std::sin(angle)};
-    });
-}
-
 }  // namespace
 
 Points noisy_points(std::size_t count) {
@@ -174,9 +162,15 @@ Points facing_points(std::size_t count) {
     return points;
 }
 
-Points arc_points(std::size_t count) { return two_arcs(count, 5.0 / 6); }
-
-Points ring_points(std::size_t count) { return two_arcs(count, 1); }
+Points arc_points(std::size_t count) {
+    Random random(19);
+    const double step = 2 * std::numbers::pi * (5.0 / 6) / static_cast<double>(count / 2);
+    return on_curve(19, count, [&random, step](std::size_t i) {
+        const double angle = step * (static_cast<double>(i / 2) + 0.3 * random.real());
+        const double radius = i % 2 == 0 ? 1e9 : 0.75e9 - 0.05e9 * angle;
+        return tinwright::Point2{1e9 + radius * std::cos(angle), 1e9 + radius * std::sin(angle)};
+    });
+}
 
 Points cluster_points(std::size_t count) {
     constexpr std::size_t kSize = 1000;

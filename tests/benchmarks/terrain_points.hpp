@@ -27,12 +27,10 @@ Points sea_points(std::size_t count);
 /// Two straight rows that face each other across a tenth of their length, each a wave of its own phase: what
 /// is level with a sample lies far along the other row.
 Points facing_points(std::size_t count);
-/// Whole numbers near two arcs around one centre, half of them on each, a quarter of the radius apart and
-/// five sixths of a circle long: what the relative neighbourhood graph leaves open is one polygon, with
-/// nearly all as corners. z is random.
+/// Whole numbers near two arcs, five sixths of a circle long, half of them on each: the distance between the
+/// arcs grows along them from a quarter of the radius to a half, so that the relative neighbourhood graph
+/// joins them at the narrow end only and leaves one polygon open, with nearly all as corners. z is random.
 Points arc_points(std::size_t count);
-/// The same on two whole circles: one polygon between them, one inside.
-Points ring_points(std::size_t count);
 /// Places in clusters of a thousand on the fractal terrain, to the centimetre: the denser the nearer to the
 /// cluster's centre, most of the plane empty.
 Points cluster_points(std::size_t count);
