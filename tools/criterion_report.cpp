@@ -67,22 +67,19 @@ struct CountKey {
     std::size_t Counts::*value;
 };
 
-// Clang before 17 deduces nothing for aggregates by itself.
-template <class Counts>
-CountKey(const char*, const char*, std::size_t Counts::*) -> CountKey<Counts>;
+constexpr auto kCountKeys = std::to_array<CountKey<OptimizeReport>>(
+    {{"TINWRIGHT_TIES", "ties", &OptimizeReport::ties},
+     {"TINWRIGHT_FROZEN", "frozen", &OptimizeReport::frozen},
+     {"TINWRIGHT_INSERTIONS", "insertions", &OptimizeReport::insertions},
+     {"TINWRIGHT_TRIES", "tries", &OptimizeReport::tries},
+     {"TINWRIGHT_CANDIDATES", "candidates", &OptimizeReport::candidates}});
 
-constexpr std::array kCountKeys{CountKey{"TINWRIGHT_TIES", "ties", &OptimizeReport::ties},
-                                CountKey{"TINWRIGHT_FROZEN", "frozen", &OptimizeReport::frozen},
-                                CountKey{"TINWRIGHT_INSERTIONS", "insertions", &OptimizeReport::insertions},
-                                CountKey{"TINWRIGHT_TRIES", "tries", &OptimizeReport::tries},
-                                CountKey{"TINWRIGHT_CANDIDATES", "candidates", &OptimizeReport::candidates}};
-
-constexpr std::array kLengthKeys{
-    CountKey{"TINWRIGHT_GRAPH_EDGES", "graph_edges", &LengthReport::graph_edges},
-    CountKey{"TINWRIGHT_POLYGONS", "polygons", &LengthReport::polygons},
-    CountKey{"TINWRIGHT_INCOMPLETE", "incomplete", &LengthReport::incomplete},
-    CountKey{"TINWRIGHT_LARGEST_POLYGON", "largest_polygon", &LengthReport::largest},
-    CountKey{"TINWRIGHT_CHANGED", "changed", &LengthReport::changed}};
+constexpr auto kLengthKeys = std::to_array<CountKey<LengthReport>>(
+    {{"TINWRIGHT_GRAPH_EDGES", "graph_edges", &LengthReport::graph_edges},
+     {"TINWRIGHT_POLYGONS", "polygons", &LengthReport::polygons},
+     {"TINWRIGHT_INCOMPLETE", "incomplete", &LengthReport::incomplete},
+     {"TINWRIGHT_LARGEST_POLYGON", "largest_polygon", &LengthReport::largest},
+     {"TINWRIGHT_CHANGED", "changed", &LengthReport::changed}});
 
 /// Whole numbers, as many digits as they need.
 constexpr std::array kFlipKeys{WorstKey{"TINWRIGHT_FLIPS", "flips", &CriterionReport::flips},

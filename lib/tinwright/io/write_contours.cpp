@@ -92,6 +92,7 @@ constexpr std::array<Point3, 5> kSquare{{{500010.125, 6700020.25, kElevation},
 
 FillFeatures probe_fill(const WriteContoursOptions& options, bool is_bands) {
     std::vector<Point2> square;
+    square.reserve(kSquare.size());
     for (const Point3& p : kSquare) {
         square.push_back({p.x, p.y});
     }
