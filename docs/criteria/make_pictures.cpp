@@ -138,7 +138,7 @@ class Picture {
     void segment(Point2 a, Point2 b, const char* colour, double width, const char* more = "") {
         body_ << "<line x1=\"" << x(a) << "\" y1=\"" << y(a) << "\" x2=\"" << x(b) << "\" y2=\"" << y(b)
               << "\" stroke=\"" << colour << "\" stroke-width=\"" << number(width)
-              << "\" stroke-linecap=\"round\"" << more << "/>\n";
+              << R"(" stroke-linecap="round")" << more << "/>\n";
     }
 
     void dot(Point2 p, double radius = 2.5, const char* fill = kInk) {
@@ -164,7 +164,7 @@ class Picture {
         const Point2 t{middle.x + half * (b.y - a.y), middle.y - half * (b.x - a.x)};
         const std::string arc = " A" + number(scale_ * radius) + ' ' + number(scale_ * radius) + " 0 0 1 ";
         body_ << "<path d=\"M" << x(s) << ' ' << y(s) << arc << x(t) << ' ' << y(t) << arc << x(s) << ' '
-              << y(s) << "\" fill=\"" << colour << "\" fill-opacity=\"0.12\" stroke=\"" << colour
+              << y(s) << "\" fill=\"" << colour << R"(" fill-opacity="0.12" stroke=")" << colour
               << "\" stroke-dasharray=\"4 3\"/>\n";
     }
 

@@ -222,6 +222,7 @@ void run_length_growth(const Settings& settings) {
                                        PointSet{"scan rows", scan_points},
                                        PointSet{"clusters", cluster_points}};
     std::vector<std::size_t> counts;
+    counts.reserve(kGrowing.size());
     for (const double full : kGrowing) {
         counts.push_back(static_cast<std::size_t>(std::max(100.0, std::round(full * settings.scale))));
     }
