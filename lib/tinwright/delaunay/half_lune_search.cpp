@@ -1,5 +1,7 @@
 #include "tinwright/delaunay/half_lune_search.hpp"
 
+#include <algorithm>
+
 #include "tinwright/geometry/constructions.hpp"
 #include "tinwright/geometry/predicates.hpp"
 
@@ -82,9 +84,24 @@ bool HalfLuneSearch::is_beyond_lune(VertexId p, VertexId q, VertexId spoke) cons
 // at x are then at least 90 degrees less half of those at p; so the angles of a b at p and at x sum to more
 // than 180 degrees, and p or x is strictly within the circle of the face before a b. Both are seen from
 // within that face, which is constrained Delaunay.
+//
+// Nor is anything in the lune behind an edge that is farther from the line p q than the lune is wide, 0.8661
+// times its length to each side, since lines of sight lead away from that line.
 bool HalfLuneSearch::may_hide(HalfEdgeId edge, VertexId p, VertexId q) const {
-    return lengths_.compare(p, mesh_->origin(edge), p, q) < 0 ||
-           lengths_.compare(p, mesh_->destination(edge), p, q) < 0;
+    const VertexId a = mesh_->origin(edge);
+    const VertexId b = mesh_->destination(edge);
+    if (lengths_.compare(p, a, p, q) >= 0 && lengths_.compare(p, b, p, q) >= 0) {
+        return false;
+    }
+    const Key2 eye = keys_[p.value];
+    const Key2 to = keys_[q.value];
+    const auto aside = [&](VertexId v) {
+        const Key2 key = keys_[v.value];
+        return (to.x - eye.x) * (key.y - eye.y) - (to.y - eye.y) * (key.x - eye.x);
+    };
+    const double width = 0.867 * squared_distance(eye, to);
+    const auto [least, greatest] = std::minmax({aside(a), aside(b)});
+    return least <= width && greatest >= -width;
 }
 
 bool HalfLuneSearch::is_empty_behind(HalfEdgeId far, VertexId p, VertexId q) {

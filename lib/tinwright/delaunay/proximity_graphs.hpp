@@ -51,10 +51,11 @@ enum class LuneRim : std::uint8_t {
 /// `mesh`: Delaunay, or constrained Delaunay with a convex border or not; then pairs that a constrained edge,
 /// the border or a vertex separates are none, only an x seen from both p and q counts, and constrained edges
 /// are not listed unless they are in the graph. `progress` may throw Cancelled.
-/// Euclidean: the mesh's edges are tried, about O(n). Others: at each vertex what it sees is looked at, and
-/// those tried that are nearest within an octant, which all edges of the graph are: of two vertices in one
-/// half-open octant around p that are not farther than q, one is nearer to q than p is. O(n k) for k vertices
-/// seen within the reach of the octants' nearest; k is about 20 for even samples, n at worst.
+/// Euclidean: the mesh's edges are tried, about O(n); O(n^2) at worst, as between two rows of vertices that
+/// face each other, when many lunes are crossed by many edges. Others: at each vertex what it sees is looked
+/// at, and those tried that are nearest within an octant, which all edges of the graph are: of two vertices
+/// in one half-open octant around p that are not farther than q, one is nearer to q than p is. O(n k) for k
+/// vertices seen within the reach of the octants' nearest; k is about 20 for even samples, n at worst.
 std::vector<GraphEdge> make_relative_neighborhood_graph(const TriangleMesh& mesh, std::span<const Key2> keys,
                                                         Norm norm = {}, LuneRim rim = LuneRim::Outside,
                                                         const Progress& progress = {});
