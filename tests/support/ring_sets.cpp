@@ -89,6 +89,21 @@ Keys cut_circle(Random& random, std::size_t sides) {
     });
 }
 
+/// An arc of somewhat less than a third of a circle and one vertex opposite, farther from the arc's middle
+/// than from its ends.
+Keys fan(Random& random, std::size_t sides) {
+    return simple_ring([&] {
+        const double width = 1.7 + 0.5 * random.real();
+        const double rough = 0.1 * random.real() * random.real();
+        Keys ring{polar(20000, std::numbers::pi, 10000 * (1 - rough * random.real()))};
+        for (std::size_t i = 1; i < sides; ++i) {
+            const double way = (static_cast<double>(i) + 0.5 * random.real()) / static_cast<double>(sides);
+            ring.push_back(polar(20000, width * (way - 0.5), 10000 * (1 - rough * random.real())));
+        }
+        return ring;
+    });
+}
+
 /// All sides of a regular polygon; lengths tie as far as keys allow.
 Keys regular(Random& random, std::size_t sides) {
     return simple_ring([&] {
@@ -200,6 +215,7 @@ Keys dense(Random& random, std::size_t sides) {
 
 constexpr std::array kRingFamilies{
     RingFamily{"near a circle", near_circle},
+    RingFamily{"fan", fan},
     RingFamily{"regular", regular},
     RingFamily{"cut circle", cut_circle},
     RingFamily{"star", star},

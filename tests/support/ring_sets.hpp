@@ -18,8 +18,8 @@ struct RingFamily {
     std::vector<tinwright::Key2> (*make)(Random& random, std::size_t sides);
 };
 
-/// Near a circle (the first), regular, a circle with a part cut off, stars, bows, combs, tangles of random
-/// points, some of them on a small lattice, and few corners with many vertices between.
+/// Near a circle (the first), regular, a circle with a part cut off, fans, stars, bows, combs, tangles of
+/// random points, some of them on a small lattice, and few corners with many vertices between.
 std::span<const RingFamily> ring_families();
 
 }  // namespace tinwright_tests
