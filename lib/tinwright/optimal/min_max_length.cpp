@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include <tbb/blocked_range.h>
@@ -14,6 +16,7 @@
 #include "tinwright/delaunay/proximity_graphs.hpp"
 #include "tinwright/geometry/error.hpp"
 #include "tinwright/mesh/mesh_edit.hpp"
+#include "tinwright/optimal/bounded_delaunay.hpp"
 #include "tinwright/optimal/polygon_optimizer.hpp"
 #include "tinwright/optimal/stopwatch.hpp"
 
@@ -23,6 +26,7 @@ namespace {
 
 using internal::PolygonOptimizer;
 using internal::PolygonTask;
+using internal::VertexPair;
 using internal::Walls;
 
 /// Makes one TIN optimal.
@@ -37,11 +41,22 @@ class LengthOptimizer {
     bool find_graph();
     void insert_graph(const Progress& progress);
     void make_walls();
+    [[nodiscard]] std::vector<HalfEdgeId> long_edges() const;
     void find_polygons();
     void improve_polygons();
     void improve_together(std::size_t begin, std::size_t end);
+    void improve_alone(PolygonTask& task);
     void apply();
-    [[nodiscard]] bool must_stop(std::size_t done);
+    [[nodiscard]] std::vector<FaceId> changed_faces() const;
+    [[nodiscard]] VertexPair ends(HalfEdgeId h) const {
+        return {tin_.mesh.origin(h), tin_.mesh.destination(h)};
+    }
+    [[nodiscard]] bool is_longer(VertexPair x, VertexPair y) const {
+        return order_.compare(x.first, x.second, y.first, y.second) > 0;
+    }
+    [[nodiscard]] bool is_in_question(const PolygonTask& task) const {
+        return is_longer(ends(task.longest), *bound_);
+    }
 
     static constexpr double kGraphPart = 0.3;  // of the work
 
@@ -52,7 +67,10 @@ class LengthOptimizer {
     Walls walls_;
     std::vector<std::uint8_t> in_graph_;
     std::vector<PolygonTask> tasks_;
-    std::size_t sides_ = 0;  // of all tasks
+    std::size_t done_ = 0;  // tasks
+    /// No triangulation has all edges shorter: the longest wall, and what polygons were seen to need.
+    std::optional<VertexPair> bound_;
+    bool is_proven_ = false;
     OptimizeReport report_;
     LengthReport detail_;
 };
@@ -114,6 +132,14 @@ void LengthOptimizer::make_walls() {
             }
         }
     }
+    for (std::uint32_t f = 0; f < mesh.slot_count(); ++f) {
+        for (unsigned i = 0; i < 3 && mesh.is_terrain({f}); ++i) {
+            const HalfEdgeId h = half_edge({f}, i);
+            if (walls_.is_wall[h.value] != 0 && (!bound_ || is_longer(ends(h), *bound_))) {
+                bound_ = ends(h);
+            }
+        }
+    }
     detail_.graph_edges = in_graph_only / 2;
 }
 
@@ -159,65 +185,100 @@ void LengthOptimizer::insert_graph(const Progress& progress) {
     }
 }
 
-void LengthOptimizer::find_polygons() {
+/// Diagonals of polygons that are longer than all walls, the longest first.
+std::vector<HalfEdgeId> LengthOptimizer::long_edges() const {
     const TriangleMesh& mesh = tin_.mesh;
-    walls_.position.assign(walls_.is_wall.size(), 0);
-    std::vector<std::uint8_t> is_seen(walls_.is_wall.size(), 0);
+    std::vector<HalfEdgeId> edges;
     for (std::uint32_t f = 0; f < mesh.slot_count(); ++f) {
         for (unsigned i = 0; i < 3 && mesh.is_terrain({f}); ++i) {
-            const HalfEdgeId first = half_edge({f}, i);
-            if (walls_.is_wall[first.value] == 0 || is_seen[first.value] != 0) {
-                continue;
-            }
-            std::uint32_t size = 0;
-            HalfEdgeId side = first;
-            do {
-                is_seen[side.value] = 1;
-                ++size;
-                side = next(side);
-                while (walls_.is_wall[side.value] == 0) {
-                    side = next(mesh.twin(side));
-                }
-            } while (side != first);
-            if (size > 3) {
-                tasks_.push_back({first, size, false, false, {}, {}});
-                sides_ += size;
-                detail_.largest = std::max<std::size_t>(detail_.largest, size);
+            const HalfEdgeId h = half_edge({f}, i);
+            if (walls_.is_wall[h.value] == 0 && mesh.origin(h) < mesh.destination(h) &&
+                is_longer(ends(h), *bound_)) {
+                edges.push_back(h);
             }
         }
     }
-    detail_.polygons = tasks_.size();
+    std::sort(edges.begin(), edges.end(), [this](HalfEdgeId g, HalfEdgeId h) {
+        const auto [a, b] = ends(g);
+        const auto [c, d] = ends(h);
+        return order_.is_shorter(c, d, a, b);
+    });
+    return edges;
 }
 
-bool LengthOptimizer::must_stop(std::size_t done) { return stopwatch_.is_over(done, sides_, done); }
+/// Only polygons with an edge longer than all walls can matter. They come in the order of their longest
+/// edges.
+void LengthOptimizer::find_polygons() {
+    const TriangleMesh& mesh = tin_.mesh;
+    const std::vector<HalfEdgeId> edges = long_edges();
+    std::vector<std::uint8_t> is_seen(edges.empty() ? 0 : mesh.slot_count(), 0);
+    for (const HalfEdgeId longest : edges) {
+        if (is_seen[face_of(longest).value] != 0) {
+            continue;
+        }
+        HalfEdgeId first = longest;
+        while (walls_.is_wall[first.value] == 0) {
+            first = next(mesh.twin(first));
+        }
+        std::uint32_t size = 0;
+        HalfEdgeId side = first;
+        do {
+            ++size;
+            side = next(side);
+            is_seen[face_of(side).value] = 1;
+            while (walls_.is_wall[side.value] == 0) {
+                side = next(mesh.twin(side));
+                is_seen[face_of(side).value] = 1;
+            }
+        } while (side != first);
+        PolygonTask task;
+        task.wall = first;
+        task.longest = longest;
+        task.size = size;
+        tasks_.push_back(std::move(task));
+    }
+    walls_.position.assign(tasks_.empty() ? 0 : walls_.is_wall.size(), 0);
+}
 
-/// Small polygons are shared out among threads by the block; a large one is a block of its own, during which
-/// is asked whether to stop.
+/// The longest edges first, until no polygon has one that is longer than some polygon, or wall, is known to
+/// need. Small polygons are shared out among threads by the block; a large one is a block of its own, during
+/// which is asked whether to stop.
 void LengthOptimizer::improve_polygons() {
-    constexpr std::size_t kBlock = 1U << 16U;  // sides
+    constexpr std::size_t kBlock = 1U << 12U;  // sides
     constexpr std::uint32_t kLarge = 1U << 12U;
-    std::size_t done = 0;
-    for (std::size_t begin = 0; begin < tasks_.size() && !must_stop(done);) {
-        std::size_t end = begin;
+    while (done_ < tasks_.size() && is_in_question(tasks_[done_])) {
+        std::size_t end = done_;
         std::size_t sides = 0;
         while (end < tasks_.size() && sides < kBlock && tasks_[end].size < kLarge) {
             sides += tasks_[end++].size;
         }
-        if (end == begin) {
-            sides = tasks_[begin].size;
-            PolygonOptimizer optimizer(tin_.mesh, order_, walls_, in_graph_);
-            optimizer.run(tasks_[end++], [&] { return !must_stop(done); });
-            report_.candidates += optimizer.candidates();
+        if (end == done_) {
+            improve_alone(tasks_[end++]);
         } else {
-            improve_together(begin, end);
+            improve_together(done_, end);
         }
-        done += sides;
-        begin = end;
+        for (; done_ < end && tasks_[done_].is_done; ++done_) {
+            const PolygonTask& task = tasks_[done_];
+            if (is_in_question(task) && is_longer(task.optimum, *bound_)) {
+                bound_ = task.optimum;
+            }
+        }
+        if (done_ < end || stopwatch_.is_over(done_, tasks_.size(), done_)) {
+            return;
+        }
     }
+    is_proven_ = true;
+}
+
+void LengthOptimizer::improve_alone(PolygonTask& task) {
+    PolygonOptimizer optimizer(tin_.mesh, order_, walls_, in_graph_);
+    std::size_t steps = 0;
+    optimizer.run(task, [&] { return !stopwatch_.is_over(done_, tasks_.size(), steps += task.size); });
+    report_.candidates += optimizer.candidates();
 }
 
 void LengthOptimizer::improve_together(std::size_t begin, std::size_t end) {
-    constexpr std::size_t kGrain = 256;
+    constexpr std::size_t kGrain = 64;
     tbb::enumerable_thread_specific<PolygonOptimizer> optimizers(
         [&] { return PolygonOptimizer(tin_.mesh, order_, walls_, in_graph_); });
     tbb::parallel_for(tbb::blocked_range<std::size_t>(begin, end, kGrain), [&](const auto& range) {
@@ -231,21 +292,44 @@ void LengthOptimizer::improve_together(std::size_t begin, std::size_t end) {
     }
 }
 
+/// Changes the faces of polygons that have too long an edge, and then back to Delaunay what the bound allows.
 void LengthOptimizer::apply() {
-    bool is_all_done = true;
-    for (const PolygonTask& task : tasks_) {
-        is_all_done = is_all_done && task.is_done;
-        report_.tries += task.is_done ? 1U : 0U;
+    for (std::size_t k = 0; k < done_; ++k) {
+        PolygonTask& task = tasks_[k];
+        if (!is_in_question(task)) {
+            task.faces.clear();  // another polygon turned out to need as long an edge
+        }
         detail_.incomplete += task.is_incomplete ? 1U : 0U;
+        detail_.largest = std::max<std::size_t>(detail_.largest, task.size);
         if (!task.faces.empty()) {
             refill_cavity(tin_.mesh, task.slots, task.faces);
             ++detail_.changed;
             report_.insertions += task.faces.size() - 1;
         }
     }
-    if (is_all_done) {
+    detail_.polygons = done_;
+    report_.tries = done_;
+    if (is_proven_) {
         report_.proof = Proof::Theorem;
+        internal::flip_to_delaunay(tin_.mesh, order_, changed_faces(), *bound_);
     }
+}
+
+/// Those of changed polygons; all, if the graph's edges were inserted.
+std::vector<FaceId> LengthOptimizer::changed_faces() const {
+    std::vector<FaceId> faces;
+    if (!options_.norm.is_euclidean()) {
+        for (std::uint32_t f = 0; f < tin_.mesh.slot_count(); ++f) {
+            faces.push_back({f});
+        }
+        return faces;
+    }
+    for (std::size_t k = 0; k < done_; ++k) {
+        if (!tasks_[k].faces.empty()) {
+            faces.insert(faces.end(), tasks_[k].slots.begin(), tasks_[k].slots.end());
+        }
+    }
+    return faces;
 }
 
 }  // namespace

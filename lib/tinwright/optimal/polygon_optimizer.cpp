@@ -12,16 +12,14 @@ void PolygonOptimizer::run(PolygonTask& task, const Poll& poll) {
         return;  // walls that hang together leave no islands; these are of another triangulation's graph
     }
     const std::optional<std::uint32_t> long_side = find_shortest_long_side();
-    const HalfEdgeId longest = longest_diagonal();
     task.is_incomplete = long_side.has_value();
-    if (!long_side) {
-        task.is_done = improve_complete(longest, task, poll);
-    } else if (is_really_shorter(longest_side(), ends(longest))) {
-        task.is_done =
-            parts_.triangulate(polygon_.after(*long_side), *long_side,
-                               CavityFace::Across::rim(polygon_.side(*long_side)), task.faces, poll);
+    if (long_side) {
+        const HalfEdgeId base = polygon_.side(*long_side);
+        task.optimum = ends(base);
+        task.is_done = parts_.triangulate(polygon_.after(*long_side), *long_side,
+                                          CavityFace::Across::rim(base), task.faces, poll);
     } else {
-        task.is_done = true;
+        task.is_done = improve_complete(task, poll);
     }
     if (!task.is_done) {
         task.faces.clear();
@@ -32,29 +30,25 @@ void PolygonOptimizer::run(PolygonTask& task, const Poll& poll) {
 }
 
 /// Whether it was not stopped.
-bool PolygonOptimizer::improve_complete(HalfEdgeId longest, PolygonTask& task, const Poll& poll) {
+bool PolygonOptimizer::improve_complete(PolygonTask& task, const Poll& poll) {
     constexpr std::uint32_t kMany = 64;
-    const VertexPair pair = ends(longest);
+    task.optimum = ends(task.longest);
     std::optional<ExpandableEdgeSearch::Diagonal> best;
-    if (const auto bound = bound_without(longest, poll)) {
-        best = polygon_.size() > kMany ? search_.find_among_many(*bound, pair, poll)
-                                       : search_.find_among_few(*bound, pair);
+    if (const auto bound = bound_without(task.longest, poll)) {
+        best = polygon_.size() > kMany ? search_.find_among_many(*bound, task.optimum, poll)
+                                       : search_.find_among_few(*bound, task.optimum);
     }
-    if (!best || !is_really_shorter({polygon_.vertex(best->low), polygon_.vertex(best->high)}, pair)) {
+    if (!best) {
         return poll();
     }
-    const auto other_part = [&] { return CavityFace::Across::inner(0, 2); };
-    return parts_.triangulate(best->low, best->high, {}, task.faces, poll) &&
-           parts_.triangulate(best->high, best->low, other_part(), task.faces, poll);
-}
-
-VertexPair PolygonOptimizer::longest_side() const {
-    VertexPair longest = ends(polygon_.side(0));
-    for (std::uint32_t position = 1; position < polygon_.size(); ++position) {
-        const VertexPair side = ends(polygon_.side(position));
-        longest = is_shorter(longest, side) ? side : longest;
+    const VertexPair edge{polygon_.vertex(best->low), polygon_.vertex(best->high)};
+    if (!is_really_shorter(edge, task.optimum)) {
+        return true;
     }
-    return longest;
+    task.optimum = edge;
+    const CavityFace::Across first_part = CavityFace::Across::inner(0, 2);
+    return parts_.triangulate(best->low, best->high, {}, task.faces, poll) &&
+           parts_.triangulate(best->high, best->low, first_part, task.faces, poll);
 }
 
 /// Without its longest diagonal p q a polygon has a face at p, and one at q, whose opposite edge crosses p q,
@@ -90,20 +84,6 @@ std::optional<VertexPair> PolygonOptimizer::bound_without(HalfEdgeId longest, co
         return std::nullopt;
     }
     return is_shorter(*at_p, *at_q) ? at_q : at_p;
-}
-
-HalfEdgeId PolygonOptimizer::longest_diagonal() const {
-    std::optional<HalfEdgeId> longest;
-    for (const FaceId face : polygon_.faces()) {
-        for (unsigned i = 0; i < 3; ++i) {
-            const HalfEdgeId h = half_edge(face, i);
-            if (walls_.is_wall[h.value] == 0 && h < polygon_.mesh().twin(h) &&
-                (!longest || is_shorter(ends(*longest), ends(h)))) {
-                longest = h;
-            }
-        }
-    }
-    return *longest;
 }
 
 /// Of the sides that are not empty towards the inside.

@@ -16,10 +16,12 @@ namespace tinwright::internal {
 
 /// A polygon that is yet to be looked at, and what became of it.
 struct PolygonTask {
-    HalfEdgeId wall{};       ///< one of its sides
-    std::uint32_t size = 0;  ///< number of sides
+    HalfEdgeId wall{};     ///< one of its sides
+    HalfEdgeId longest{};  ///< its longest diagonal, longer than its sides
+    std::uint32_t size = 0;
     bool is_incomplete = false;
     bool is_done = false;
+    VertexPair optimum;  ///< a longest edge that it can do with, as good as any; sides not counted
     std::vector<FaceId> slots;
     std::vector<CavityFace> faces;  ///< in their place; empty: they are as good as any
 };
@@ -28,8 +30,7 @@ struct PolygonTask {
 ///
 /// A polygon is complete if all its sides are empty towards its inside [tan1993, Sec. 5.3]: its shortest
 /// expandable 2-edge divides it in two parts (Sec. 5.6). Otherwise one of the sides that are not is the base
-/// of it all (Sec. 5.4): the shortest, so that no diagonal is longer, and the longest edge is a side, which
-/// cannot be helped. Faces stay if their longest edge is as short already.
+/// of it all (Sec. 5.4): the shortest, so that no diagonal is longer.
 class PolygonOptimizer {
   public:
     /// `in_graph`: of each half-edge whether its edge is known to be empty on both sides.
@@ -53,11 +54,9 @@ class PolygonOptimizer {
     [[nodiscard]] bool is_really_shorter(VertexPair x, VertexPair y) const {
         return order_.compare(x.first, x.second, y.first, y.second) < 0;
     }
-    [[nodiscard]] VertexPair longest_side() const;
-    [[nodiscard]] HalfEdgeId longest_diagonal() const;
     [[nodiscard]] std::optional<VertexPair> bound_without(HalfEdgeId longest, const Poll& poll) const;
     [[nodiscard]] std::optional<std::uint32_t> find_shortest_long_side();
-    bool improve_complete(HalfEdgeId longest, PolygonTask& task, const Poll& poll);
+    bool improve_complete(PolygonTask& task, const Poll& poll);
 
     const LengthOrder& order_;
     std::span<const std::uint8_t> in_graph_;
