@@ -78,87 +78,61 @@ inline void check_length_report(const tinwright::Tin& start, const tinwright::Ti
     REQUIRE(report.length->changed <= report.length->polygons);
     REQUIRE(report.length->incomplete <= report.length->polygons);
     REQUIRE((report.length->polygons == 0 || report.length->largest >= 4));
+    REQUIRE((report.length->changed == 0) == (report.insertions == 0));
     if (norm.is_euclidean()) {
         REQUIRE((report.length->changed == 0) == (terrain_of(start.mesh) == terrain_of(tin.mesh)));
-        REQUIRE((report.length->changed == 0) == (report.insertions == 0));
+    }
+    if (report.before.all == report.after.all) {
+        REQUIRE(terrain_of(start.mesh) == terrain_of(tin.mesh));
     }
 }
 
-/// Polygons that were triangulated anew.
-struct ChangedPolygons {
-    std::size_t complete = 0;
-    std::size_t incomplete = 0;  ///< with a side that is longer than need be
-    ChangedPolygons& operator+=(ChangedPolygons other) {
-        complete += other.complete;
-        incomplete += other.incomplete;
-        return *this;
-    }
-};
-
-/// All diagonals of the region come before the shortest of its long sides.
-inline void check_diagonals(const oracle::Region& region, const std::vector<oracle::Edge>& long_sides,
-                            const oracle::LengthRanks& ranks) {
-    std::uint32_t shortest = UINT32_MAX;
-    for (const oracle::Edge& side : long_sides) {
-        shortest = std::min(shortest, ranks.place(side[0], side[1]));
-    }
-    std::set<oracle::Edge> sides;
-    for (std::size_t i = 0; i < region.ring.size(); ++i) {
-        sides.insert(ascending(region.ring[i], region.ring[(i + 1) % region.ring.size()]));
-    }
-    for (const oracle::Triple& face : region.faces) {
-        for (const oracle::Edge& edge :
-             {oracle::Edge{face[0], face[1]}, {face[1], face[2]}, {face[0], face[2]}}) {
-            REQUIRE((sides.contains(edge) || ranks.place(edge[0], edge[1]) < shortest));
+/// No edge between terrain faces that is free to be flipped could be flipped to a Delaunay edge no longer
+/// than the TIN's longest.
+inline void check_flipped_back(const tinwright::Tin& tin, const oracle::LengthRanks& ranks) {
+    const std::uint32_t longest = oracle::longest_edge(tin, ranks);
+    const tinwright::TriangleMesh& mesh = tin.mesh;
+    for (std::uint32_t f = 0; f < mesh.slot_count(); ++f) {
+        for (unsigned i = 0; i < 3 && mesh.is_terrain({f}); ++i) {
+            const tinwright::HalfEdgeId h = tinwright::half_edge({f}, i);
+            if (mesh.is_constrained(h) || !mesh.is_terrain(tinwright::face_of(mesh.twin(h)))) {
+                continue;
+            }
+            const tinwright::VertexId a = mesh.origin(h);
+            const tinwright::VertexId b = mesh.destination(h);
+            const tinwright::VertexId c = mesh.origin(tinwright::previous(h));
+            const tinwright::VertexId d = mesh.origin(tinwright::previous(mesh.twin(h)));
+            if (oracle::incircle(tin.key(a), tin.key(b), tin.key(c), tin.key(d)) > 0) {
+                REQUIRE(ranks.rank(c.value, d.value) > longest);
+            }
         }
     }
 }
 
-/// Every polygon of the subdivision by the relative neighbourhood graph is optimal by itself. In the
-/// Euclidean norm it was left alone if it was before; else those with long sides have diagonals shorter than
-/// these.
-inline ChangedPolygons check_polygons(const tinwright::Tin& start, const tinwright::Tin& tin,
-                                      const tinwright::OptimizeReport& report, tinwright::Norm norm) {
-    const oracle::LengthRanks ranks(norm, start.keys);
+/// In the Euclidean norm, whose graph is in the TIN: the longest edge is a wall or what a polygon needs,
+/// polygons without a longer edge keep their faces, the others do not.
+inline void check_polygons(const tinwright::Tin& start, const tinwright::Tin& tin,
+                           const tinwright::OptimizeReport& report) {
+    const oracle::LengthRanks ranks({}, start.keys);
+    const std::uint32_t longest = oracle::longest_edge(tin, ranks);
     const std::set<oracle::Edge> graph = oracle::relative_neighbors(start, ranks);
-    const std::set<oracle::Edge> edges = edges_of(tin, false);
-    REQUIRE(std::includes(edges.begin(), edges.end(), graph.begin(), graph.end()));
+    const std::vector<oracle::Region> before = oracle::regions_of(start, graph);
     const std::vector<oracle::Region> regions = oracle::regions_of(tin, graph);
-    const std::vector<oracle::Region> regions_before =
-        norm.is_euclidean() ? oracle::regions_of(start, graph) : std::vector<oracle::Region>();
-    tinwright::LengthReport expected;
-    ChangedPolygons changed;
+    REQUIRE(before.size() == regions.size());
+    std::uint32_t needed = 0;
+    std::size_t changed = 0;
     for (std::size_t r = 0; r < regions.size(); ++r) {
-        const oracle::Region& region = regions[r];
-        CAPTURE(region.ring);
-        REQUIRE(region.faces.size() + 2 == region.ring.size());  // simply connected
-        const std::uint32_t longest = oracle::longest_edge(region, ranks);
-        REQUIRE(oracle::least_longest_edge(start.keys, region.ring, ranks) == longest);
-        const std::vector<oracle::Edge> long_sides = oracle::long_sides(region, start.keys, ranks);
-        if (region.faces.size() > 1) {
-            ++expected.polygons;
-            expected.incomplete += long_sides.empty() ? 0U : 1U;
-            expected.largest = std::max(expected.largest, region.ring.size());
-        }
-        if (regions_before.empty()) {
-            continue;
-        }
-        REQUIRE(regions_before[r].ring == region.ring);
-        const bool is_kept = regions_before[r].faces == region.faces;
-        REQUIRE(is_kept == (oracle::longest_edge(regions_before[r], ranks) == longest));
-        if (!is_kept) {
-            ++(long_sides.empty() ? changed.complete : changed.incomplete);
-            check_diagonals(region, long_sides, ranks);
-        }
+        CAPTURE(regions[r].ring);
+        REQUIRE(before[r].ring == regions[r].ring);
+        const auto least = oracle::least_longest_edge(start.keys, regions[r].ring, ranks);
+        REQUIRE(least.has_value());
+        needed = std::max(needed, *least);
+        const bool is_kept = before[r].faces == regions[r].faces;
+        REQUIRE(is_kept == (oracle::longest_edge(before[r], ranks) <= longest));
+        changed += is_kept ? 0U : 1U;
     }
-    REQUIRE(report.length.has_value());
-    CHECK(report.length->polygons == expected.polygons);
-    CHECK(report.length->incomplete == expected.incomplete);
-    CHECK(report.length->largest == expected.largest);
-    if (norm.is_euclidean()) {
-        CHECK(report.length->changed == changed.complete + changed.incomplete);
-    }
-    return changed;
+    REQUIRE(needed == longest);
+    CHECK(report.length->changed == changed);
 }
 
 }  // namespace tinwright_tests

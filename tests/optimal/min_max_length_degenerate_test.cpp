@@ -125,7 +125,10 @@ TEST_SUITE("optimal/min_max_length_degenerate") {
                 REQUIRE(oracle::longest_edge(tin, ranks) ==
                         oracle::least_longest_edge(oracle::terrain_sites(start), ranks));
                 check_length_report(start, tin, report, norm);
-                check_polygons(start, tin, report, norm);
+                check_flipped_back(tin, ranks);
+                if (norm.is_euclidean()) {
+                    check_polygons(start, tin, report);
+                }
             }
         }
     }
