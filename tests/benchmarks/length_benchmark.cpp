@@ -42,10 +42,12 @@ struct PointSet {
 constexpr double kLongSeconds = 5;  // a run that takes longer is not repeated to know how it grows
 
 /// `minimize_longest_edge` of the Delaunay TIN of `points`, which is made before. Notes the number of sides
-/// of the largest polygon.
-std::function<Measured()> shortening(const Points& points, Norm norm, int threads) {
-    const Work work = [&points, norm, threads](Meter& meter) {
+/// of the largest polygon that was looked at.
+std::function<Measured()> shortening(const Points& points, Norm norm, int threads,
+                                     const tinwright::DomainRule& domain = {}) {
+    const Work work = [&points, norm, threads, domain](Meter& meter) {
         tinwright::TriangulateOptions how;
+        how.domain = domain;
         how.threads = threads;
         tinwright::Triangulated made = tinwright::triangulate(points, how);
         tinwright::OptimizeOptions options;
@@ -105,8 +107,10 @@ class Comparison {
     Comparison(std::string set, const Points& points)
         : set_(std::move(set)), points_(points), contenders_{delaunay(points)} {}
 
-    void add_shortening(const std::string& name, Norm norm, std::optional<Target> target = std::nullopt) {
-        add("min-max length" + name, target, [&](int threads) { return shortening(points_, norm, threads); });
+    void add_shortening(const std::string& name, Norm norm, std::optional<Target> target = std::nullopt,
+                        const tinwright::DomainRule& domain = {}) {
+        add("min-max length" + name, target,
+            [&](int threads) { return shortening(points_, norm, threads, domain); });
     }
     void add_graph(const std::string& name, const MakeGraph& make) {
         add(name, std::nullopt, [&](int threads) { return graph(points_, make, threads); });
@@ -147,11 +151,25 @@ class Comparison {
     std::vector<Row> rows_;
 };
 
+/// A domain without long border edges, so that polygons inside decide the longest edge.
+tinwright::DomainRule dense_domain(const Points& points) {
+    const auto by_x = std::minmax_element(points.begin(), points.end(),
+                                          [](const auto& a, const auto& b) { return a.x < b.x; });
+    const auto by_y = std::minmax_element(points.begin(), points.end(),
+                                          [](const auto& a, const auto& b) { return a.y < b.y; });
+    const double area = (by_x.second->x - by_x.first->x) * (by_y.second->y - by_y.first->y);
+    tinwright::DomainRule rule;
+    rule.kind = tinwright::DomainRule::Kind::Concave;
+    rule.length = 3 * std::sqrt(area / static_cast<double>(points.size()));
+    return rule;
+}
+
 void measure_euclidean(const PointSet& set, std::size_t count, std::optional<Target> target, int rounds,
                        ResultTable& table) {
     const Points points = set.make(count);
     Comparison comparison(set.name, points);
     comparison.add_shortening("", Norm(), target);
+    comparison.add_shortening(", no long border edges", Norm(), target, dense_domain(points));
     comparison.add_graph("minimum spanning tree", make_tree);
     comparison.add_graph("Gabriel graph", tinwright::make_gabriel_graph);
     comparison.add_graph("relative neighbourhood graph", [](const TriangleMesh& mesh, Keys keys) {
