@@ -164,10 +164,10 @@ Points facing_points(std::size_t count) {
 
 Points arc_points(std::size_t count) {
     Random random(19);
-    const double step = 2 * std::numbers::pi * (5.0 / 6) / static_cast<double>(count / 2);
+    const double step = 2 * std::numbers::pi / static_cast<double>(count / 2);
     return on_curve(19, count, [&random, step](std::size_t i) {
         const double angle = step * (static_cast<double>(i / 2) + 0.3 * random.real());
-        const double radius = i % 2 == 0 ? 1e9 : 0.75e9 - 0.05e9 * angle;
+        const double radius = i % 2 == 0 ? 1e9 : 0.75e9 - 0.04e9 * angle;
         return tinwright::Point2{1e9 + radius * std::cos(angle), 1e9 + radius * std::sin(angle)};
     });
 }
