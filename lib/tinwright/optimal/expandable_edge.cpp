@@ -8,19 +8,44 @@ namespace tinwright::internal {
 std::optional<ExpandableEdgeSearch::Diagonal> ExpandableEdgeSearch::find_among_many(VertexPair at_least,
                                                                                     VertexPair before,
                                                                                     const Poll& poll) {
-    known_.clear();
-    for (std::uint32_t position = 0; position < polygon_.size(); ++position) {
-        if (!poll()) {
-            return std::nullopt;
+    for (VertexPair from = at_least; is_shorter(from, before);) {
+        VertexPair limit = before;
+        known_.clear();
+        for (std::uint32_t position = 0; position < polygon_.size(); ++position) {
+            if (!poll()) {
+                return std::nullopt;
+            }
+            note(position, from, limit, polygon_.look(position, before, space_));
+            if (known_.size() > kMostKnown) {
+                limit = keep_shorter_half();
+            }
         }
-        note(position, at_least, polygon_.look(position, before, space_));
+        if (const auto best = find_among_known()) {
+            return best;
+        }
+        from = limit;
     }
+    return std::nullopt;
+}
+
+/// Returns the pair that all that were kept come before.
+VertexPair ExpandableEdgeSearch::keep_shorter_half() {
+    const auto middle = known_.begin() + static_cast<std::ptrdiff_t>(known_.size() / 2);
+    std::nth_element(known_.begin(), middle, known_.end(), [this](const HalfKnown& x, const HalfKnown& y) {
+        return is_shorter(ends(x.edge), ends(y.edge));
+    });
+    const VertexPair limit = ends(middle->edge);
+    std::erase_if(known_, [&](const HalfKnown& half) { return !is_shorter(ends(half.edge), limit); });
+    return limit;
+}
+
+/// Step 3 for all 2-edges that are known from both ends.
+std::optional<ExpandableEdgeSearch::Diagonal> ExpandableEdgeSearch::find_among_known() {
     std::sort(known_.begin(), known_.end(), [](const HalfKnown& x, const HalfKnown& y) {
         return std::tie(x.edge.low, x.edge.high, x.is_from_high) <
                std::tie(y.edge.low, y.edge.high, y.is_from_high);
     });
     candidates_ += known_.size() / 2;
-
     std::optional<Diagonal> best;
     for (std::size_t k = 0; k + 1 < known_.size(); k += 2) {
         const Diagonal& edge = known_[k].edge;
@@ -32,8 +57,9 @@ std::optional<ExpandableEdgeSearch::Diagonal> ExpandableEdgeSearch::find_among_m
     return best;
 }
 
-/// Step 2 for all 2-edges from `eye`: the empty lines next to them. The first and the last line are sides.
-void ExpandableEdgeSearch::note(std::uint32_t eye, VertexPair at_least,
+/// Step 2 for all 2-edges from `eye` that come before `limit` but not before `from`: the empty lines next to
+/// them. The first and the last line are sides.
+void ExpandableEdgeSearch::note(std::uint32_t eye, VertexPair from, VertexPair limit,
                                 std::span<const WallPolygon::Sight> sights) {
     const std::size_t count = sights.size();
     behind_.assign(count, 0);
@@ -44,7 +70,8 @@ void ExpandableEdgeSearch::note(std::uint32_t eye, VertexPair at_least,
     for (std::size_t k = 0; k < count; ++k) {
         const WallPolygon::Sight& sight = sights[k];
         if (!sight.is_left_empty && !sight.is_right_empty &&
-            !is_shorter({polygon_.vertex(eye), sight.vertex}, at_least)) {
+            !is_shorter({polygon_.vertex(eye), sight.vertex}, from) &&
+            is_shorter({polygon_.vertex(eye), sight.vertex}, limit)) {
             known_.push_back({{std::min(eye, sight.position), std::max(eye, sight.position)},
                               eye > sight.position,
                               before,

@@ -34,7 +34,8 @@ class ExpandableEdgeSearch {
     /// Only lines of sight before the pair are looked at. That leaves the result as it is: the faces at an
     /// expandable edge lie in its lune, so their edges, which alone can make it pass the test of step 3, are
     /// shorter than it is; and what passes with fewer lines passes with all. O(n^2) for n sides, less where
-    /// little is seen within that length; memory for the 2-edges between the pairs.
+    /// little is seen within that length; 170 MB at most: if more 2-edges come into question, they are taken
+    /// in several turns, shorter ones first, of which one is enough as a rule.
     std::optional<Diagonal> find_among_many(VertexPair at_least, VertexPair before, const Poll& poll);
     /// The same, for few sides: pairs of corners are tried shortest first. As a rule one of the first is the
     /// one, and only what its ends see has to be found. Makes the polygon keep its sights.
@@ -53,7 +54,12 @@ class ExpandableEdgeSearch {
         std::uint32_t behind;  ///< counter-clockwise
     };
 
-    void note(std::uint32_t eye, VertexPair at_least, std::span<const WallPolygon::Sight> sights);
+    static constexpr std::size_t kMostKnown = 1U << 23U;
+
+    void note(std::uint32_t eye, VertexPair from, VertexPair limit,
+              std::span<const WallPolygon::Sight> sights);
+    VertexPair keep_shorter_half();
+    [[nodiscard]] std::optional<Diagonal> find_among_known();
     [[nodiscard]] std::optional<HalfKnown> know(std::uint32_t eye, std::uint32_t other, VertexPair before);
     void collect_pairs(VertexPair at_least, VertexPair before);
     [[nodiscard]] bool is_shorter(VertexPair x, VertexPair y) const {
