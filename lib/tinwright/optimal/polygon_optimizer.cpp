@@ -95,12 +95,11 @@ std::optional<std::uint32_t> PolygonOptimizer::find_shortest_long_side() {
             (shortest && !is_shorter(ends(side), ends(polygon_.side(*shortest))))) {
             continue;
         }
-        const auto [a, b] = ends(side);
-        const auto sights = polygon_.look(position, {a, b}, space_);
+        const VertexPair pair = ends(side);
+        const auto sights = polygon_.look(position, pair, space_);
         const auto is_in_half_lune = [&](const WallPolygon::Sight& sight) {
-            return order_.is_in_lune(sight.vertex, a, b) &&
-                   orient2d(order_.keys()[a.value], order_.keys()[b.value],
-                            order_.keys()[sight.vertex.value]) > 0;
+            return order_.is_in_lune(sight.vertex, pair.first, pair.second) &&
+                   orient2d(key(pair.first), key(pair.second), key(sight.vertex)) > 0;
         };
         if (std::any_of(sights.begin(), sights.end(), is_in_half_lune)) {
             shortest = position;
