@@ -289,6 +289,23 @@ TEST_SUITE("optimal/min_max_length_degenerate") {
         }
     }
 
+    TEST_CASE("stopped anywhere in the search of another norm's graph the TIN is sound and no worse") {
+        Random random(3);
+        const Tin start = general_families()[0].make(random, 20'000);
+        Tin finished = start;
+        const Stopped all = optimize_until(kNever, Norm::lp(1), finished);
+        REQUIRE(all.report.stopped_by == StoppedBy::Finished);
+        REQUIRE(all.calls > 4);
+        for (const int stop_at : {2, 4}) {
+            CAPTURE(stop_at);
+            Tin tin = start;
+            const Stopped stopped = optimize_until(stop_at, Norm::lp(1), tin);
+            check_stopped(start, tin, stopped.report, StoppedBy::Interrupt, Norm::lp(1));
+            CHECK(stopped.calls == stop_at);
+            CHECK(terrain_of(tin.mesh) == terrain_of(start.mesh));
+        }
+    }
+
     TEST_CASE("the scope is always the longest edge") {
         Random random(3);
         const Tin start = length_families()[3].make(random, 60);

@@ -17,8 +17,8 @@ namespace {
 
 constexpr std::uint32_t kSlotsPerReport = 1U << 17U;
 constexpr std::uint32_t kSlotsPerTask = 4096;
-constexpr std::size_t kTasksPerReport = 32;
-constexpr std::size_t kVerticesPerTask = 1024;
+constexpr std::size_t kTasksPerReport = 64;
+constexpr std::size_t kVerticesPerTask = 64;  // in clusters one may take a millisecond
 
 // Calls visit(search, f) for every face slot.
 template <class Visit>

@@ -100,8 +100,7 @@ bool LengthOptimizer::find_graph() {
     const auto slots = static_cast<double>(tin_.mesh.slot_count());
     stopwatch_.set_stage(0, kGraphPart);
     const Progress progress = [&](double part) {
-        const auto done = static_cast<std::size_t>(part * slots);
-        return !stopwatch_.is_over(done, tin_.mesh.slot_count(), done);
+        return !stopwatch_.is_over_now(static_cast<std::size_t>(part * slots), tin_.mesh.slot_count());
     };
     try {
         if (options_.norm.is_euclidean()) {
@@ -263,7 +262,7 @@ void LengthOptimizer::improve_polygons() {
                 bound_ = task.optimum;
             }
         }
-        if (done_ < end || stopwatch_.is_over(done_, tasks_.size(), done_)) {
+        if (done_ < end || stopwatch_.is_over_now(done_, tasks_.size())) {
             return;
         }
     }

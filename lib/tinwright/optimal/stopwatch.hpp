@@ -32,18 +32,24 @@ class Stopwatch {
         // A clock is slow next to most tries.
         constexpr unsigned kTriesBetween = 64;
         constexpr std::size_t kWorkBetween = 1U << 16U;
+        if (stopped_by_ == StoppedBy::Finished &&
+            (calls_++ % kTriesBetween == 0 || work - work_before_ > kWorkBetween)) {
+            work_before_ = work;
+            return is_over_now(done, all);
+        }
+        return stopped_by_ != StoppedBy::Finished;
+    }
+    /// The same, asked at once: after what may have taken long.
+    bool is_over_now(std::size_t done, std::size_t all) {
         if (stopped_by_ != StoppedBy::Finished) {
             return true;
         }
-        if (calls_++ % kTriesBetween == 0 || work - work_before_ > kWorkBetween) {
-            work_before_ = work;
-            if (budget_ && seconds() >= *budget_) {
-                stopped_by_ = StoppedBy::Budget;
-            } else if (progress_) {
-                const double part = static_cast<double>(std::min(done, all)) / static_cast<double>(all);
-                const bool goes_on = progress_(begin_ + (end_ - begin_) * part);
-                stopped_by_ = goes_on ? StoppedBy::Finished : StoppedBy::Interrupt;
-            }
+        if (budget_ && seconds() >= *budget_) {
+            stopped_by_ = StoppedBy::Budget;
+        } else if (progress_) {
+            const double part = static_cast<double>(std::min(done, all)) / static_cast<double>(all);
+            const bool goes_on = progress_(begin_ + (end_ - begin_) * part);
+            stopped_by_ = goes_on ? StoppedBy::Finished : StoppedBy::Interrupt;
         }
         return stopped_by_ != StoppedBy::Finished;
     }
