@@ -116,12 +116,13 @@ std::string counts_line(const OptimizeReport& counts) {
            (counts.ties == 0 ? "no ties" : counted(counts.ties, "tie", "ties"));
 }
 
-std::string polygons_line(const LengthReport& length) {
+/// Empty when it was stopped before any polygon was looked at.
+std::string polygons_line(const LengthReport& length, bool was_stopped) {
     if (length.polygons == 0) {
-        return "relative neighbours and border leave nothing to choose";
+        return was_stopped ? "" : "the longest edge is one of border, lines or relative neighbours";
     }
     const std::string sides = counted(length.largest, "side", "sides");
-    return counted(length.polygons, "polygon", "polygons") + " between relative neighbours, " +
+    return counted(length.polygons, "polygon", "polygons") + " between relative neighbours looked at, " +
            (length.polygons == 1 ? "of " + sides : "up to " + sides + " each") + ", " +
            std::to_string(length.changed) + " triangulated anew";
 }
@@ -158,7 +159,9 @@ std::vector<std::string> criterion_lines(const CriterionReport& report) {
         lines.push_back(counts_line(*report.counts));
     }
     if (report.length) {
-        lines.push_back(polygons_line(*report.length));
+        if (std::string polygons = polygons_line(*report.length, is_stopped(report)); !polygons.empty()) {
+            lines.push_back(std::move(polygons));
+        }
     }
     return lines;
 }

@@ -94,11 +94,11 @@ TEST_SUITE("tools/criterion_report") {
     TEST_CASE("of length people read what the longest edge became, in which norm, and that it is proven") {
         CHECK(criterion_lines(
                   make_criterion_report(length_options("l1"), with(length_result()), in_metres())) ==
-              std::vector<std::string>{
-                  "length, norm l1, scope max",
-                  "longest edge 105.5 -> 98 metre (interior 88.25 -> 80.5 metre)",
-                  "proven: no triangulation has a shorter longest edge",
-                  "345 polygons between relative neighbours, up to 25 sides each, 12 triangulated anew"});
+              std::vector<std::string>{"length, norm l1, scope max",
+                                       "longest edge 105.5 -> 98 metre (interior 88.25 -> 80.5 metre)",
+                                       "proven: no triangulation has a shorter longest edge",
+                                       "345 polygons between relative neighbours looked at, up to 25 sides "
+                                       "each, 12 triangulated anew"});
         OptimizeReport same = length_result();
         same.after = same.before;
         same.length = LengthReport{1000, 0, 0, 0, 0};
@@ -107,12 +107,15 @@ TEST_SUITE("tools/criterion_report") {
         CHECK(lines.at(0) == "length, norm l2, scope max");
         CHECK(lines.at(2) ==
               "proven: no triangulation has a shorter longest edge; the Delaunay TIN's is as short");
-        CHECK(lines.at(3) == "relative neighbours and border leave nothing to choose");
+        CHECK(lines.at(3) == "the longest edge is one of border, lines or relative neighbours");
         OptimizeReport stopped = length_result();
         stopped.proof = Proof::None;
         stopped.stopped_by = StoppedBy::Budget;
         CHECK(criterion_lines(make_criterion_report(length_options(""), with(stopped), in_metres())).at(2) ==
               "not proven the shortest possible: stopped by the budget");
+        stopped.length = LengthReport();
+        CHECK(criterion_lines(make_criterion_report(length_options(""), with(stopped), in_metres())).size() ==
+              3);
         CHECK(criterion_warnings(length_options(""), with(stopped), nowhere(), "") ==
               std::vector<std::string>{"the budget of 0 s ran out: the TIN is valid but its longest edge is "
                                        "not proven the shortest possible; give a longer --budget"});

@@ -49,10 +49,10 @@ enum class StoppedBy : std::uint8_t { Finished, Budget, Interrupt };
 /// What the subdivision by the relative neighbourhood graph was like; see `min_max_length.hpp`.
 struct LengthReport {
     std::size_t graph_edges = 0;  ///< of the graph, other than constrained edges
-    std::size_t polygons = 0;     ///< regions of more than one face
+    std::size_t polygons = 0;     ///< regions with edges longer than all of these, as far as looked at
     std::size_t incomplete = 0;   ///< of these, with a side that is not in the graph of the region's vertices
     std::size_t largest = 0;      ///< sides of the region that has most
-    std::size_t changed = 0;      ///< regions triangulated anew; the others were good as they were
+    std::size_t changed = 0;      ///< regions triangulated anew; the longest edge does not depend on others
 };
 
 struct OptimizeReport {
