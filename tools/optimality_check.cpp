@@ -20,6 +20,7 @@ namespace {
 
 constexpr std::size_t kUsualFaces = 100;
 constexpr std::size_t kUsualReach = 100;
+constexpr const char* kNormIsForLength = "--norm says how edges are measured: it is for --criterion length";
 
 constexpr auto kCriterionChoices =
     std::to_array<std::pair<std::string_view, Criterion>>({{"slope", Criterion::Slope},
@@ -105,6 +106,9 @@ void OptimalityOptions::add_to(CLI::App& parser) {
 }
 
 void OptimalityOptions::finish() {
+    if (!norm_text.empty() && criterion_text.empty()) {
+        throw UsageError(kNormIsForLength);
+    }
     const auto need_criterion = [this](bool is_given, const std::string& option) {
         if (is_given && criterion_text.empty()) {
             throw UsageError(option +
@@ -114,7 +118,6 @@ void OptimalityOptions::finish() {
     need_criterion(!worst_text.empty(), "--worst");
     need_criterion(all, "--all");
     need_criterion(!reach_text.empty(), "--reach");
-    need_criterion(!norm_text.empty(), "--norm");
     if (all && !worst_text.empty()) {
         throw UsageError("--worst and --all exclude each other");
     }
@@ -144,7 +147,7 @@ void OptimalityOptions::finish() {
 
 void OptimalityOptions::refuse_others_options() const {
     if (criterion != Criterion::Length && !norm_text.empty()) {
-        throw UsageError("--norm says how edges are measured: it is for --criterion length");
+        throw UsageError(kNormIsForLength);
     }
     if (criterion == Criterion::Length && !(worst_text.empty() && reach_text.empty())) {
         throw UsageError(
