@@ -46,13 +46,13 @@ enum class Proof : std::uint8_t {
 
 enum class StoppedBy : std::uint8_t { Finished, Budget, Interrupt };
 
-/// What the subdivision by the relative neighbourhood graph was like; see `min_max_length.hpp`.
+/// What the relative neighbourhood graph left to look at; see `min_max_length.hpp`.
 struct LengthReport {
     std::size_t graph_edges = 0;  ///< of the graph, other than constrained edges
-    std::size_t polygons = 0;     ///< regions with edges longer than all of these, as far as looked at
-    std::size_t incomplete = 0;   ///< of these, with a side that is not in the graph of the region's vertices
-    std::size_t largest = 0;      ///< sides of the region that has most
-    std::size_t changed = 0;      ///< regions triangulated anew; the longest edge does not depend on others
+    std::size_t polygons = 0;     ///< looked at: with an edge longer than was known to be needed
+    std::size_t incomplete = 0;   ///< of these, with a side that is not in the graph of the polygon's corners
+    std::size_t largest = 0;      ///< of these, sides of the one that has most
+    std::size_t changed = 0;      ///< of these, triangulated anew; the longest edge does not need the others
 };
 
 struct OptimizeReport {
@@ -62,7 +62,7 @@ struct OptimizeReport {
     Proof proof = Proof::None;
     StoppedBy stopped_by = StoppedBy::Finished;
     std::size_t insertions = 0;  ///< edges inserted
-    std::size_t tries = 0;       ///< faces whose improvement was sought; for length, polygons
+    std::size_t tries = 0;       ///< faces whose improvement was sought; for length, polygons looked at
     std::size_t candidates = 0;  ///< edges considered for insertion
     std::size_t frozen = 0;      ///< faces within the scope that were found to be as good as can be
     std::size_t ties = 0;        ///< measures met that equal, as far as can be told, the one to improve on
