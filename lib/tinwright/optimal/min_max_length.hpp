@@ -12,11 +12,11 @@ namespace tinwright {
 ///
 /// The relative neighbourhood graph of what vertices see of each other is part of an optimum (Subgraph
 /// Theorem [tan1993, Sec. 5.2, 5.9]). Together with the constrained edges it divides the terrain into
-/// polygons. No longest edge is shorter than the longest of these walls, nor than what any polygon needs; only
-/// polygons with an edge longer than all that is known to be needed are looked at, and in the end only those
-/// with an edge longer than the optimum get new faces. Edges of these that are not Delaunay are then flipped,
-/// unless to one longer than the optimum. So the TIN is locally Delaunay but at constrained edges and where a
-/// flip would make too long an edge. If its longest edge cannot be shorter, nothing is changed.
+/// polygons. No longest edge is shorter than the longest of these walls, nor than what any polygon needs;
+/// only polygons with an edge longer than all that is known to be needed are looked at, and in the end only
+/// those with an edge longer than the optimum get new faces. Edges of these that are not Delaunay are then
+/// flipped, unless to one longer than the optimum. So the TIN is locally Delaunay but at constrained edges
+/// and where a flip would make too long an edge. If its longest edge cannot be shorter, nothing is changed.
 ///
 /// `Criterion::Length` and `norm` of `options` are what counts; the scope is always the longest edge. Budget
 /// and progress as in `optimize`.
