@@ -135,7 +135,7 @@ TEST_SUITE("optimal/certificate") {
     TEST_CASE("of length what it lists is an improvement, but what it does not find may be there") {
         int caught = 0;
         const auto families = general_families();
-        for (int seed = 0; seed < cases(400); ++seed) {
+        for (int seed = 0; seed < 400; ++seed) {
             CAPTURE(seed);
             Random random(static_cast<std::uint64_t>(seed));
             Tin tin = families[static_cast<std::size_t>(seed) % families.size()].make(random, 9);
