@@ -54,7 +54,7 @@ class ExpandableEdgeSearch {
         std::uint32_t behind;  ///< counter-clockwise
     };
 
-    static constexpr std::size_t kMostKnown = 1U << 23U;
+    static constexpr std::size_t kMostKnown = 6'000'000;  // a vector that doubles then stays at 2^23
 
     void note(std::uint32_t eye, VertexPair from, VertexPair limit,
               std::span<const WallPolygon::Sight> sights);

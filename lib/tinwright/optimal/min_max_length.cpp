@@ -118,7 +118,6 @@ bool LengthOptimizer::find_graph() {
 void LengthOptimizer::make_walls() {
     walls_.is_wall = in_graph_;
     const TriangleMesh& mesh = tin_.mesh;
-    std::size_t in_graph_only = 0;
     for (std::uint32_t f = 0; f < mesh.slot_count(); ++f) {
         for (unsigned i = 0; i < 3; ++i) {
             const HalfEdgeId h = half_edge({f}, i);
@@ -126,8 +125,8 @@ void LengthOptimizer::make_walls() {
                 walls_.is_wall[mesh.twin(h).value] = 1;
             } else if (mesh.is_constrained(h)) {
                 walls_.is_wall[h.value] = 1;
-            } else {
-                in_graph_only += in_graph_[h.value];
+            } else if (h < mesh.twin(h) || !mesh.is_terrain(face_of(mesh.twin(h)))) {  // once an edge
+                detail_.graph_edges += in_graph_[h.value];
             }
         }
     }
@@ -139,7 +138,6 @@ void LengthOptimizer::make_walls() {
             }
         }
     }
-    detail_.graph_edges = in_graph_only / 2;
 }
 
 /// Makes the edges of the graph edges of the mesh, and marks them.
@@ -243,8 +241,8 @@ void LengthOptimizer::find_polygons() {
 /// need. Small polygons are shared out among threads by the block; a large one is a block of its own, during
 /// which is asked whether to stop.
 void LengthOptimizer::improve_polygons() {
-    constexpr std::size_t kBlock = 1U << 12U;  // sides
-    constexpr std::uint32_t kLarge = 1U << 12U;
+    constexpr std::size_t kBlock = 1U << 12U;    // sides
+    constexpr std::uint32_t kLarge = 1U << 10U;  // a tenth of a second
     while (done_ < tasks_.size() && is_in_question(tasks_[done_])) {
         std::size_t end = done_;
         std::size_t sides = 0;
