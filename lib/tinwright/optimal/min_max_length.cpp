@@ -47,6 +47,7 @@ class LengthOptimizer {
     void improve_together(std::size_t begin, std::size_t end);
     void improve_alone(PolygonTask& task);
     void apply();
+    [[nodiscard]] bool was_optimal() const;
     [[nodiscard]] std::vector<FaceId> changed_faces() const;
     [[nodiscard]] VertexPair ends(HalfEdgeId h) const {
         return {tin_.mesh.origin(h), tin_.mesh.destination(h)};
@@ -64,6 +65,7 @@ class LengthOptimizer {
     const OptimizeOptions& options_;
     LengthOrder order_;
     internal::Stopwatch stopwatch_;
+    std::optional<TriangleMesh> at_the_start_;  // if the graph has to be inserted
     Walls walls_;
     std::vector<std::uint8_t> in_graph_;
     std::vector<PolygonTask> tasks_;
@@ -77,7 +79,9 @@ class LengthOptimizer {
 
 OptimizeReport LengthOptimizer::run() {
     report_.before = find_worst(tin_, Criterion::Length, options_.norm);
-    const TriangleMesh at_the_start = options_.norm.is_euclidean() ? TriangleMesh() : tin_.mesh;
+    if (!options_.norm.is_euclidean()) {
+        at_the_start_ = tin_.mesh;
+    }
     if (find_graph()) {
         make_walls();
         find_polygons();
@@ -86,7 +90,7 @@ OptimizeReport LengthOptimizer::run() {
     }
     report_.after = find_worst(tin_, Criterion::Length, options_.norm);
     if (stopwatch_.has_stopped() && report_.after.all > report_.before.all) {
-        tin_.mesh = at_the_start;
+        tin_.mesh = *at_the_start_;
         report_.after = report_.before;
     }
     report_.stopped_by = stopwatch_.stopped_by();
@@ -289,11 +293,29 @@ void LengthOptimizer::improve_together(std::size_t begin, std::size_t end) {
     }
 }
 
+/// Whether the graph was inserted for nothing.
+bool LengthOptimizer::was_optimal() const {
+    if (!is_proven_ || !at_the_start_) {
+        return false;
+    }
+    const TriangleMesh& mesh = *at_the_start_;
+    for (std::uint32_t f = 0; f < mesh.slot_count(); ++f) {
+        for (unsigned i = 0; i < 3 && mesh.is_terrain({f}); ++i) {
+            const HalfEdgeId h = half_edge({f}, i);
+            if (is_longer({mesh.origin(h), mesh.destination(h)}, *bound_)) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
 /// Changes the faces of polygons that have too long an edge, and then back to Delaunay what the bound allows.
 void LengthOptimizer::apply() {
+    const bool is_kept = was_optimal();
     for (std::size_t k = 0; k < done_; ++k) {
         PolygonTask& task = tasks_[k];
-        if (!is_in_question(task)) {
+        if (is_kept || !is_in_question(task)) {
             task.faces.clear();  // another polygon turned out to need as long an edge
         }
         detail_.incomplete += task.is_incomplete ? 1U : 0U;
@@ -308,6 +330,10 @@ void LengthOptimizer::apply() {
     report_.tries = done_;
     if (is_proven_) {
         report_.proof = Proof::Theorem;
+    }
+    if (is_kept) {
+        tin_.mesh = *at_the_start_;
+    } else if (is_proven_) {
         internal::flip_to_delaunay(tin_.mesh, order_, changed_faces(), *bound_);
     }
 }
