@@ -49,8 +49,9 @@ enum class LuneRim : std::uint8_t {
 /// tan1993, Sec. 2.4, 5.8]. In a norm other than the Euclidean, edges may cross if `rim` is `Outside`.
 ///
 /// `mesh`: Delaunay, or constrained Delaunay with a convex border or not; then pairs that a constrained edge,
-/// the border or a vertex separates are none, only an x seen from both p and q counts, and constrained edges
-/// are not listed unless they are in the graph. `progress` may throw Cancelled.
+/// the border or a vertex separates are none, only an x seen from both p and q counts, not one across a void
+/// from an edge of its border, and constrained edges are not listed unless they are in the graph. `progress`
+/// may throw Cancelled.
 /// Euclidean: the mesh's edges are tried, about O(n); O(n^2) at worst, as between two rows of vertices that
 /// face each other, when many lunes are crossed by many edges. Others: at each vertex what it sees is looked
 /// at, and those tried that are nearest within an octant, which all edges of the graph are: of two vertices
