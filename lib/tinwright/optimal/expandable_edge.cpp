@@ -8,6 +8,8 @@ namespace tinwright::internal {
 std::optional<ExpandableEdgeSearch::Diagonal> ExpandableEdgeSearch::find_among_many(VertexPair at_least,
                                                                                     VertexPair before,
                                                                                     const Poll& poll) {
+    const std::size_t size = polygon_.size();
+    known_.reserve(std::min(size * size, kMostKnown) + size);
     for (VertexPair from = at_least; is_shorter(from, before);) {
         VertexPair limit = before;
         known_.clear();

@@ -34,7 +34,7 @@ class ExpandableEdgeSearch {
     /// Only lines of sight before the pair are looked at. That leaves the result as it is: the faces at an
     /// expandable edge lie in its lune, so their edges, which alone can make it pass the test of step 3, are
     /// shorter than it is; and what passes with fewer lines passes with all. O(n^2) for n sides, less where
-    /// little is seen within that length; 170 MB at most: if more 2-edges come into question, they are taken
+    /// little is seen within that length; 120 MB at most: if more 2-edges come into question, they are taken
     /// in several turns, shorter ones first, of which one is enough as a rule.
     std::optional<Diagonal> find_among_many(VertexPair at_least, VertexPair before, const Poll& poll);
     /// The same, for few sides: pairs of corners are tried shortest first. As a rule one of the first is the
@@ -54,7 +54,7 @@ class ExpandableEdgeSearch {
         std::uint32_t behind;  ///< counter-clockwise
     };
 
-    static constexpr std::size_t kMostKnown = 6'000'000;  // a vector that doubles then stays at 2^23
+    static constexpr std::size_t kMostKnown = 6'000'000;
 
     void note(std::uint32_t eye, VertexPair from, VertexPair limit,
               std::span<const WallPolygon::Sight> sights);
