@@ -92,6 +92,8 @@ OptimizeReport LengthOptimizer::run() {
     if (stopwatch_.has_stopped() && report_.after.all > report_.before.all) {
         tin_.mesh = *at_the_start_;
         report_.after = report_.before;
+        detail_.changed = 0;
+        report_.insertions = 0;
     }
     report_.stopped_by = stopwatch_.stopped_by();
     report_.seconds = stopwatch_.seconds();
