@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <set>
@@ -88,6 +89,24 @@ void constrain_segments(Random& random, Tin& tin, int tries) {
     insert_segments(tin.mesh, tin.keys, segments);
 }
 
+// Two or three places far from each other around which vertices are the denser the nearer: those on the rims
+// see many of another place, or a ring of them, further apart than their own neighbours.
+std::vector<Key2> distant_clusters(Random& random) {
+    std::vector<Key2> keys;
+    const std::int64_t places = random.integer(2, 3);
+    const bool is_ring = random.integer(0, 2) == 0;
+    for (std::int64_t place = 0; place < places; ++place) {
+        const Key2 center{2000 + random.key(6000), 2000 + random.key(6000)};
+        for (int i = 0; i < 70; ++i) {
+            const double angle = 6.28 * random.real();
+            const double reach = is_ring ? 1000 : 1500 * random.real() * random.real();
+            keys.push_back({std::round(center.x + reach * std::cos(angle)),
+                            std::round(center.y + reach * std::sin(angle))});
+        }
+    }
+    return keys;
+}
+
 void check_against_definition(const Tin& tin, const oracle::Scene& scene) {
     CAPTURE(describe(tin));
     for (const Norm norm : kNorms) {
@@ -147,6 +166,20 @@ TEST_SUITE("delaunay/relative_neighbors") {
                     make_voids_at_random(random, tin, static_cast<int>(random.integer(1, 20)));
                     check_against_definition(tin, oracle::scene_of(tin));
                 }
+            }
+        }
+    }
+
+    TEST_CASE(
+        "among clusters far apart, with constrained edges or not, the graphs are those of the definition") {
+        for (int seed = 0; seed < cases(12); ++seed) {
+            CAPTURE(seed);
+            Random random(static_cast<std::uint64_t>(seed) + 130);
+            Tin tin = delaunay_tin(distant_clusters(random));
+            check_against_definition(tin, oracle::open_scene(tin));
+            if (seed % 4 == 0) {
+                constrain_segments(random, tin, 2);
+                check_against_definition(tin, oracle::scene_of(tin));
             }
         }
     }

@@ -35,6 +35,22 @@ class OctantSearch {
         bool is_wall_between;  // the edge to it is to be found in the two corners that it separates
     };
 
+    struct Range {
+        double least;
+        double greatest;
+    };
+    /// The lune of p and a candidate, within bounds of x, y, x + y and x - y from p.
+    struct Lune {
+        double squared_reach;
+        std::array<Range, 4> ranges;
+    };
+
+    /// The nearest mesh neighbour in an octant, from p; none is infinitely far.
+    struct Blocker {
+        Key2 step;
+        double distance;
+    };
+
     [[nodiscard]] bool starts_corner(HalfEdgeId h) const;
     void find_in_corner(HalfEdgeId first);
     void look_for_nearest(HalfEdgeId first);
@@ -45,8 +61,16 @@ class OctantSearch {
     [[nodiscard]] bool is_blocked(const Candidate& q) const;
 
     [[nodiscard]] std::size_t slot(Key2 key) const;
-    [[nodiscard]] double squared_reach_between(Key2 right, Key2 left);
+    [[nodiscard]] bool is_worth(HalfEdgeId edge, Key2 right, Key2 left);
+    [[nodiscard]] bool is_blocked_behind(HalfEdgeId edge, Key2 right, Key2 left, std::size_t slot) const;
+    [[nodiscard]] bool is_blocked_beyond(const Blocker& u, Key2 near, Key2 far) const;
+    [[nodiscard]] Key2 octant_ray(std::size_t slot) const;
+    [[nodiscard]] Key2 from_eye(Key2 key) const { return {key.x - eye_.x, key.y - eye_.y}; }
+    void note_neighbor(Key2 key);
+    [[nodiscard]] double reach(Key2 key) const;
     [[nodiscard]] double squared_reach(Key2 key) const;
+    [[nodiscard]] Lune lune_of(Key2 key) const;
+    [[nodiscard]] bool may_meet(HalfEdgeId edge, const Lune& lune) const;
     [[nodiscard]] bool may_hide(HalfEdgeId edge, double squared_reach) const;
 
     const TriangleMesh* mesh_;
@@ -62,8 +86,11 @@ class OctantSearch {
     Key2 first_{};  // seen in the corner
     int first_octant_ = 0;
     bool is_around_ = false;
-    std::array<double, 9> nearest_{};  // squared reach of the nearest seen so far, by slots
+    std::array<double, 9> nearest_{};    // squared reach of the nearest seen so far, by slots
+    std::array<Blocker, 9> blockers_{};  // by slots
+    int looked_ = 0;                     // edges so far, for the nearest
     std::vector<Candidate> candidates_;
+    std::vector<Lune> lunes_;
     std::vector<Candidate> found_;
 };
 

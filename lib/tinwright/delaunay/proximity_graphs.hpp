@@ -56,7 +56,8 @@ enum class LuneRim : std::uint8_t {
 /// face each other, when many lunes are crossed by many edges. Others: at each vertex what it sees is looked
 /// at, and those tried that are nearest within an octant, which all edges of the graph are: of two vertices
 /// in one half-open octant around p that are not farther than q, one is nearer to q than p is. O(n k) for k
-/// vertices seen within the reach of the octants' nearest; k is about 20 for even samples, n at worst.
+/// vertices seen within the reach of the octants' nearest, but for most that mesh neighbours rule out; k is
+/// about 20 for even samples, n at worst.
 std::vector<GraphEdge> make_relative_neighborhood_graph(const TriangleMesh& mesh, std::span<const Key2> keys,
                                                         Norm norm = {}, LuneRim rim = LuneRim::Outside,
                                                         const Progress& progress = {});
