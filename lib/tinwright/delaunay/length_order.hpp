@@ -33,8 +33,8 @@ class LengthOrder {
         if (!norm_.is_euclidean()) {
             return compare_lengths(norm_, key(a), key(b), key(c), key(d));
         }
-        // Differences of keys are exact and three operations round, each by 2^-53 at most: most pairs are told
-        // apart at once.
+        // Differences of keys are exact and three operations round, each by 2^-53 at most: most pairs are
+        // told apart at once.
         const double one = squared_distance(key(a), key(b));
         const double other = squared_distance(key(c), key(d));
         if (std::abs(one - other) > 0x1p-50 * (one + other)) {
