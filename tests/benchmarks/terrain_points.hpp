@@ -28,8 +28,9 @@ Points sea_points(std::size_t count);
 /// is level with a sample lies far along the other row.
 Points facing_points(std::size_t count);
 /// Whole numbers near two arcs that go all around, one within the other, half of them on each: the distance
-/// between the arcs grows along them from a quarter of the radius to a half, so that the relative neighbourhood
-/// graph joins them at the narrow end only, and the inner one is open. What is left is one polygon. z is random.
+/// between the arcs grows along them from a quarter of the radius to a half, so that the relative
+/// neighbourhood graph joins them at the narrow end only, and the inner one is open. What is left is one
+/// polygon. z is random.
 Points arc_points(std::size_t count);
 /// Places in clusters of a thousand on the fractal terrain, to the centimetre: the denser the nearer to the
 /// cluster's centre, most of the plane empty.

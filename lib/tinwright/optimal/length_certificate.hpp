@@ -31,9 +31,9 @@ struct LengthCertificate {
 /// Whether the longest edge of a TIN is as short as it can be, by other means than `minimize_longest_edge`:
 /// what the constrained edges and the relative neighbourhood graph leave open is triangulated by dynamic
 /// programming (`polygon_dp.hpp`), which knows no theorem on polygons. Only polygons whose faces in the
-/// constrained Delaunay triangulation have an edge longer than what is needed elsewhere can matter; most often
-/// there are none or few. `tin`: at least one terrain face, any triangulation of it.
-/// O(n log n) to find the polygons, O(m^3) for each of m sides.
+/// constrained Delaunay triangulation have an edge longer than what is needed elsewhere can matter; most
+/// often there are none or few. `tin`: at least one terrain face, any triangulation of it. O(n log n) to find
+/// the polygons, O(m^3) for each of m sides.
 LengthCertificate certify_length(const Tin& tin, const LengthCertificateOptions& options);
 
 }  // namespace tinwright
