@@ -41,8 +41,9 @@ class LengthOptimizer {
     bool find_graph();
     void insert_graph(const Progress& progress);
     void make_walls();
-    [[nodiscard]] std::vector<HalfEdgeId> long_edges() const;
-    void find_polygons();
+    [[nodiscard]] std::vector<HalfEdgeId> find_long_edges() const;
+    PolygonTask trace(HalfEdgeId longest);
+    void find_polygons(std::size_t sides);
     void improve_polygons();
     void improve_together(std::size_t begin, std::size_t end);
     void improve_alone(PolygonTask& task);
@@ -68,6 +69,9 @@ class LengthOptimizer {
     std::optional<TriangleMesh> at_the_start_;  // if the graph has to be inserted
     Walls walls_;
     std::vector<std::uint8_t> in_graph_;
+    std::vector<HalfEdgeId> long_edges_;  // diagonals longer than all walls, the longest first
+    std::size_t next_ = 0;                // of these
+    std::vector<std::uint8_t> is_seen_;   // by face: whether its polygon is known
     std::vector<PolygonTask> tasks_;
     std::size_t done_ = 0;  // tasks
     /// No triangulation has all edges shorter: the longest wall, and what polygons were seen to need.
@@ -84,7 +88,6 @@ OptimizeReport LengthOptimizer::run() {
     }
     if (find_graph()) {
         make_walls();
-        find_polygons();
         improve_polygons();
         apply();
     }
@@ -189,7 +192,7 @@ void LengthOptimizer::insert_graph(const Progress& progress) {
 }
 
 /// Diagonals of polygons that are longer than all walls, the longest first.
-std::vector<HalfEdgeId> LengthOptimizer::long_edges() const {
+std::vector<HalfEdgeId> LengthOptimizer::find_long_edges() const {
     const TriangleMesh& mesh = tin_.mesh;
     std::vector<HalfEdgeId> edges;
     for (std::uint32_t f = 0; f < mesh.slot_count(); ++f) {
@@ -209,38 +212,39 @@ std::vector<HalfEdgeId> LengthOptimizer::long_edges() const {
     return edges;
 }
 
-/// Only polygons with an edge longer than all walls can matter. They come in the order of their longest
-/// edges.
-void LengthOptimizer::find_polygons() {
+/// The polygon of a diagonal, which is its longest; its faces are marked as seen.
+PolygonTask LengthOptimizer::trace(HalfEdgeId longest) {
     const TriangleMesh& mesh = tin_.mesh;
-    const std::vector<HalfEdgeId> edges = long_edges();
-    std::vector<std::uint8_t> is_seen(edges.empty() ? 0 : mesh.slot_count(), 0);
-    for (const HalfEdgeId longest : edges) {
-        if (is_seen[face_of(longest).value] != 0) {
-            continue;
-        }
-        HalfEdgeId first = longest;
-        while (walls_.is_wall[first.value] == 0) {
-            first = next(mesh.twin(first));
-        }
-        std::uint32_t size = 0;
-        HalfEdgeId side = first;
-        do {
-            ++size;
-            side = next(side);
-            is_seen[face_of(side).value] = 1;
-            while (walls_.is_wall[side.value] == 0) {
-                side = next(mesh.twin(side));
-                is_seen[face_of(side).value] = 1;
-            }
-        } while (side != first);
-        PolygonTask task;
-        task.wall = first;
-        task.longest = longest;
-        task.size = size;
-        tasks_.push_back(std::move(task));
+    PolygonTask task;
+    task.longest = longest;
+    task.wall = longest;
+    while (walls_.is_wall[task.wall.value] == 0) {
+        task.wall = next(mesh.twin(task.wall));
     }
-    walls_.position.assign(tasks_.empty() ? 0 : walls_.is_wall.size(), 0);
+    HalfEdgeId side = task.wall;
+    do {
+        ++task.size;
+        side = next(side);
+        is_seen_[face_of(side).value] = 1;
+        while (walls_.is_wall[side.value] == 0) {
+            side = next(mesh.twin(side));
+            is_seen_[face_of(side).value] = 1;
+        }
+    } while (side != task.wall);
+    return task;
+}
+
+/// About so many sides of polygons with an edge longer than the bound, which alone matter, in the order of
+/// their longest edges.
+void LengthOptimizer::find_polygons(std::size_t sides) {
+    std::size_t found = 0;
+    while (found < sides && next_ < long_edges_.size() && is_longer(ends(long_edges_[next_]), *bound_)) {
+        const HalfEdgeId longest = long_edges_[next_++];
+        if (is_seen_[face_of(longest).value] == 0) {
+            tasks_.push_back(trace(longest));
+            found += tasks_.back().size;
+        }
+    }
 }
 
 /// The longest edges first, until no polygon has one that is longer than some polygon, or wall, is known to
@@ -249,7 +253,18 @@ void LengthOptimizer::find_polygons() {
 void LengthOptimizer::improve_polygons() {
     constexpr std::size_t kBlock = 1U << 12U;    // sides
     constexpr std::uint32_t kLarge = 1U << 10U;  // a tenth of a second
-    while (done_ < tasks_.size() && is_in_question(tasks_[done_])) {
+    long_edges_ = find_long_edges();
+    if (!long_edges_.empty()) {
+        is_seen_.assign(tin_.mesh.slot_count(), 0);
+        walls_.position.assign(walls_.is_wall.size(), 0);
+    }
+    for (;;) {
+        if (done_ == tasks_.size()) {
+            find_polygons(kBlock);
+        }
+        if (done_ == tasks_.size() || !is_in_question(tasks_[done_])) {
+            break;
+        }
         std::size_t end = done_;
         std::size_t sides = 0;
         while (end < tasks_.size() && sides < kBlock && tasks_[end].size < kLarge) {
@@ -266,7 +281,7 @@ void LengthOptimizer::improve_polygons() {
                 bound_ = task.optimum;
             }
         }
-        if (done_ < end || stopwatch_.is_over_now(done_, tasks_.size())) {
+        if (done_ < end || stopwatch_.is_over_now(next_, long_edges_.size())) {
             return;
         }
     }
@@ -276,7 +291,7 @@ void LengthOptimizer::improve_polygons() {
 void LengthOptimizer::improve_alone(PolygonTask& task) {
     PolygonOptimizer optimizer(tin_.mesh, order_, walls_, in_graph_);
     std::size_t steps = 0;
-    optimizer.run(task, [&] { return !stopwatch_.is_over(done_, tasks_.size(), steps += task.size); });
+    optimizer.run(task, [&] { return !stopwatch_.is_over(next_, long_edges_.size(), steps += task.size); });
     report_.candidates += optimizer.candidates();
 }
 
