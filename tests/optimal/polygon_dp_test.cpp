@@ -217,7 +217,7 @@ TEST_SUITE("optimal/polygon_dp") {
             CHECK(triangulate_polygon(ring, random_measure(0, 0)).has_value());
             check_against_all(ring, random.next());
         }
-        CHECK(cracks > 10);
+        CHECK(cracks > cases(10));
         CHECK(straight > 10);
     }
 
