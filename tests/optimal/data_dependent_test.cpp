@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <numbers>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include <doctest/doctest.h>
@@ -185,7 +186,9 @@ TEST_SUITE("optimal/data_dependent") {
             for (const TinFamily& family : general_families()) {
                 CAPTURE(family.name);
                 const Tin tin = family.make(random, 12);
-                for (const auto& [name, measure] : kCreaseMeasures) {
+                for (const auto& named : kCreaseMeasures) {
+                    const std::string_view name = named.first;
+                    const auto measure = named.second;
                     CAPTURE(name);
                     for_each_edge(tin.mesh, [&, measure = measure](HalfEdgeId h) {
                         const double crease = measure_crease(tin, h, measure);
@@ -205,7 +208,9 @@ TEST_SUITE("optimal/data_dependent") {
             for (const TinFamily& family : general_families()) {
                 CAPTURE(family.name);
                 const Tin start = family.make(random, static_cast<std::size_t>(random.integer(5, 14)));
-                for (const auto& [name, measure] : kCreaseMeasures) {
+                for (const auto& named : kCreaseMeasures) {
+                    const std::string_view name = named.first;
+                    const auto measure = named.second;
                     CAPTURE(name);
                     for (const std::optional<int> order : orders()) {
                         CAPTURE(order.value_or(-1));
@@ -239,7 +244,9 @@ TEST_SUITE("optimal/data_dependent") {
                     }
                     constrain_at_random(random, start, static_cast<int>(random.integer(0, 4)));
                     make_voids_at_random(random, start, static_cast<int>(random.integer(0, 2)));
-                    for (const auto& [name, measure] : kCreaseMeasures) {
+                    for (const auto& named : kCreaseMeasures) {
+                        const std::string_view name = named.first;
+                        const auto measure = named.second;
                         CAPTURE(name);
                         Tin tin = start;
                         flip_creases(tin, options_of(measure, std::nullopt));
@@ -387,7 +394,9 @@ TEST_SUITE("optimal/data_dependent") {
                 return count;
             };
             const int before = crossing(triangulate(samples, options).tin);
-            for (const auto& [name, measure] : kCreaseMeasures) {
+            for (const auto& named : kCreaseMeasures) {
+                const std::string_view name = named.first;
+                const auto measure = named.second;
                 CAPTURE(name);
                 options.data_dependent = options_of(measure, 3);
                 const int after = crossing(triangulate(samples, options).tin);

@@ -8,6 +8,7 @@
 #include <limits>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <doctest/doctest.h>
@@ -144,7 +145,9 @@ template <class Body>
 void for_all(int usual, const Body& body) {
     for (const TinKind& kind : tin_kinds()) {
         for (int seed = 1; seed <= cases(usual); ++seed) {
-            for (const auto& [name, method] : kInterpolationMethods) {
+            for (const auto& named : kInterpolationMethods) {
+                const std::string_view name = named.first;
+                const auto method = named.second;
                 CAPTURE(std::string(kind.name));
                 CAPTURE(seed);
                 CAPTURE(name);
@@ -309,7 +312,9 @@ TEST_SUITE("surface/interpolator") {
     }
 
     TEST_CASE("elevations that no sum of squares holds are refused by what needs such sums") {
-        for (const auto& [name, method] : kInterpolationMethods) {
+        for (const auto& named : kInterpolationMethods) {
+            const std::string_view name = named.first;
+            const auto method = named.second;
             CAPTURE(std::string(name));
             const Tin tin = tin_of_samples({{0, 0, 0}, {10, 0, 1e101}, {0, 10, 5}});
             const auto make = [&, chosen = method] { Reading(tin, chosen); };
