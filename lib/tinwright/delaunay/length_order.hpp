@@ -2,13 +2,12 @@
 #define TINWRIGHT_DELAUNAY_LENGTH_ORDER_HPP
 
 #include <algorithm>
-#include <cmath>
 #include <span>
 
-#include "tinwright/geometry/constructions.hpp"
 #include "tinwright/geometry/lattice.hpp"
 #include "tinwright/geometry/norm.hpp"
 #include "tinwright/geometry/predicates.hpp"
+#include "tinwright/geometry/predicates_internal.hpp"
 #include "tinwright/mesh/handles.hpp"
 
 namespace tinwright {
@@ -33,12 +32,11 @@ class LengthOrder {
         if (!norm_.is_euclidean()) {
             return compare_lengths(norm_, key(a), key(b), key(c), key(d));
         }
-        // Differences of keys are exact and three operations round, each by 2^-53 at most: most pairs are
-        // told apart at once.
-        const double one = squared_distance(key(a), key(b));
-        const double other = squared_distance(key(c), key(d));
-        if (std::abs(one - other) > 0x1p-50 * (one + other)) {
-            return one < other ? -1 : 1;
+        // The same as compare_distances, of which the quick part is worth having here.
+        const int quick = internal::compare_squares(internal::localize(key(a), key(b)).square,
+                                                    internal::localize(key(c), key(d)).square);
+        if (quick != internal::kUnsure) {
+            return quick;
         }
         return compare_distances(key(a), key(b), key(c), key(d));
     }
