@@ -21,10 +21,6 @@ namespace tinwright::tools {
 
 namespace {
 
-const char* role_name(LineRole role) {
-    return role == LineRole::Breakline ? "breakline" : role == LineRole::Boundary ? "boundary" : "hole";
-}
-
 /// Everything that is told of one TIN's vertices and edges.
 class Explainer {
   public:

@@ -105,11 +105,11 @@ std::size_t apply_domain(Tin& tin, const DomainRule& rule) {
     return 0;
 }
 
-std::size_t drop_long_faces(Tin& tin, double length) {
+std::size_t drop_long_faces(Tin& tin, double length, const std::vector<bool>& is_kept) {
     const double limit = squared_in_keys(tin.lattice, length);
     std::size_t dropped = 0;
     for (std::uint32_t f = 0; f < tin.mesh.slot_count(); ++f) {
-        if (!tin.mesh.is_terrain({f})) {
+        if (!tin.mesh.is_terrain({f}) || (!is_kept.empty() && is_kept[f])) {
             continue;
         }
         if (squared_length(tin, half_edge({f}, 0)) > limit ||

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "tinwright/breaklines/breakline.hpp"
 #include "tinwright/mesh/tin.hpp"
@@ -33,6 +34,10 @@ struct DomainReport {
 std::size_t apply_polygons(Tin& tin, std::span<const Breakline> lines,
                            std::optional<std::uint32_t> terrain_ring = {});
 
+/// Which face slots are water: terrain inside a polygon of role Lake or Bank. `lines`: those that
+/// `tin.traces` number; empty where no line is such a polygon. Exact, and decided as `apply_polygons` does.
+std::vector<bool> find_water_faces(const Tin& tin, std::span<const Breakline> lines);
+
 /// Marks the faces outside the domain; every sample stays on or inside its border, which remains one
 /// closed curve per surface without pinches. Faces already outside stay outside.
 ///
@@ -46,8 +51,9 @@ std::size_t apply_polygons(Tin& tin, std::span<const Breakline> lines,
 std::size_t apply_domain(Tin& tin, const DomainRule& rule);
 
 /// Marks every terrain face with an edge longer than `length` (CRS units, > 0) as outside: voids without
-/// data. Samples may be left without a face. O(n).
-std::size_t drop_long_faces(Tin& tin, double length);
+/// data. Samples may be left without a face. `is_kept`: faces that stay whatever their edges, water say;
+/// empty: none. O(n).
+std::size_t drop_long_faces(Tin& tin, double length, const std::vector<bool>& is_kept = {});
 
 /// Constrains every border edge of the domain, so that nothing done later moves it. O(n).
 void constrain_border(Tin& tin);

@@ -78,7 +78,7 @@ std::vector<LineTraits> complete_traits(std::span<const Breakline> lines, std::s
     std::vector<LineTraits> traits(given.begin(), given.end());
     traits.resize(lines.size());
     for (std::size_t i = 0; i < lines.size(); ++i) {
-        if (lines[i].role == LineRole::Breakline) {
+        if (!is_polygon_role(lines[i].role)) {
             continue;
         }
         traits[i].is_ring = true;

@@ -248,7 +248,7 @@ void LineAudit::list_clashing_samples(std::span<const Key2> keys) {
 
 void LineAudit::list_outside_samples(std::span<const Key2> keys) {
     const auto needs_samples = [&](std::size_t line) {
-        return keyed_.traits[line].is_draped && lines_[line].role == LineRole::Breakline;
+        return keyed_.traits[line].is_draped && !is_polygon_role(lines_[line].role);
     };
     std::vector<std::size_t> draped;
     for (std::size_t line = 0; line < lines_.size(); ++line) {

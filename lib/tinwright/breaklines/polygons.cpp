@@ -35,7 +35,7 @@ class AreaWalk {
         : mesh_(tin.mesh) {
         for (const LineTrace& trace : tin.traces) {
             const bool is_ring = trace.line == terrain_ring;
-            if (trace.runs % 2 == 0 || (!is_ring && lines[trace.line].role == LineRole::Breakline)) {
+            if (trace.runs % 2 == 0 || (!is_ring && !is_polygon_role(lines[trace.line].role))) {
                 continue;
             }
             const PolygonId polygon = is_ring ? PolygonId{LineRole::Hole, kTerrainRing}
@@ -136,8 +136,9 @@ class AreaWalk {
 
 std::size_t apply_polygons(Tin& tin, std::span<const Breakline> lines,
                            std::optional<std::uint32_t> terrain_ring) {
-    const bool has_polygons = std::any_of(
-        lines.begin(), lines.end(), [](const Breakline& line) { return line.role != LineRole::Breakline; });
+    const bool has_polygons = std::any_of(lines.begin(), lines.end(), [](const Breakline& line) {
+        return line.role == LineRole::Boundary || line.role == LineRole::Hole;
+    });
     std::size_t marked = 0;
     if (has_polygons || terrain_ring) {
         marked = AreaWalk(tin, lines, terrain_ring).run();

@@ -32,9 +32,10 @@ std::vector<Point3> check_lines(std::span<const Breakline> lines) {
         }
         const Point2 first{of_line.front().x, of_line.front().y};
         const Point2 last{of_line.back().x, of_line.back().y};
-        if (lines[i].role != LineRole::Breakline && !(first.x == last.x && first.y == last.y)) {
-            throw BreaklineError("the ring of a boundary or hole is not closed: it begins at " +
-                                     location_text(first) + " and ends at " + location_text(last) +
+        if (is_polygon_role(lines[i].role) && !(first.x == last.x && first.y == last.y)) {
+            throw BreaklineError("the ring of a " + std::string(role_name(lines[i].role)) +
+                                     " is not closed: it begins at " + location_text(first) +
+                                     " and ends at " + location_text(last) +
                                      "; close it, or give --snap with a distance above the gap",
                                  {i});
         }
@@ -163,8 +164,7 @@ class Maker {
     }
 
     [[nodiscard]] bool is_draped_border(const NodedPiece& piece) const {
-        return !is_ring(piece.line) && is_draped_[piece.line] &&
-               lines_[piece.line].role != LineRole::Breakline;
+        return !is_ring(piece.line) && is_draped_[piece.line] && is_polygon_role(lines_[piece.line].role);
     }
 
     // A border takes nothing from the terrain: where it is draped, it gets a vertex at every edge it crosses,

@@ -28,7 +28,7 @@ void RawLines::add_bad(const LinePlan& plan, std::int64_t feature, const std::st
 
 /// Closed lines of one feature are rings of one polygon.
 std::uint32_t FeatureLines::polygon_of_lines() {
-    if (plan_.role == LineRole::Breakline) {
+    if (!is_polygon_role(plan_.role)) {
         return 0;
     }
     if (!polygon_of_lines_) {

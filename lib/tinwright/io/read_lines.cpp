@@ -23,7 +23,8 @@ namespace {
 std::string label(const Source& source) { return "file " + quoted(source.path); }
 
 std::string name_of(LineRole role) {
-    return role == LineRole::Breakline ? "breaklines" : role == LineRole::Boundary ? "boundaries" : "holes";
+    const std::string name = role_name(role);
+    return role == LineRole::Boundary ? "boundaries" : name + "s";
 }
 
 /// One read_lines().
@@ -155,7 +156,7 @@ class LineReader {
     void close_rings(const LinePlan& plan, RawLines& raw) {
         std::vector<std::pair<std::size_t, std::string>> bad;
         for (std::size_t i = 0; i < raw.lines.size(); ++i) {
-            const bool must_close = plan.role != LineRole::Breakline || raw.parts[i].is_ring;
+            const bool must_close = is_polygon_role(plan.role) || raw.parts[i].is_ring;
             std::vector<Point3>& points = raw.lines[i].points;
             const Point3 first = points.front();
             const Point3 last = points.back();

@@ -36,8 +36,9 @@ struct LineFields {
         }
         const std::string word = edge.GetFieldAsString(role);
         LineOrigin line;
-        for (const LineRole known : {LineRole::Breakline, LineRole::Boundary, LineRole::Hole}) {
-            if (word == role_word(known)) {
+        for (const LineRole known : {LineRole::Breakline, LineRole::Boundary, LineRole::Hole, LineRole::Lake,
+                                     LineRole::Bank, LineRole::River, LineRole::Section}) {
+            if (word == role_name(known)) {
                 line.role = known;
                 line.is_sharp = !is_set(edge, sharp) || edge.GetFieldAsInteger(sharp) != 0;
                 line.source = is_set(edge, source) ? edge.GetFieldAsInteger(source) : 0;

@@ -83,7 +83,7 @@ void set_line(TinLayer& edges, const std::optional<LineOrigin>& line, bool is_bo
         }
         return;
     }
-    edges.set(4, std::string(role_word(line->role)));
+    edges.set(4, std::string(role_name(line->role)));
     if (line->source > 0) {
         edges.set(5, line->source);
     }
@@ -259,10 +259,6 @@ std::size_t write_vertices(TinDataset& dataset, const std::string& layer, const 
         tick();
     }
     return vertices.written();
-}
-
-const char* role_word(LineRole role) {
-    return role == LineRole::Breakline ? "breakline" : role == LineRole::Boundary ? "boundary" : "hole";
 }
 
 EdgeCounts count_edges(const TriangleMesh& mesh) {

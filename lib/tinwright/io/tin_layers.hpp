@@ -22,9 +22,6 @@ std::size_t write_edges(TinDataset& dataset, const std::string& layer, const Tin
 std::size_t write_vertices(TinDataset& dataset, const std::string& layer, const Tin& tin,
                            const VertexOrigins& origins, const Tick& tick);
 
-/// The word for a role in the field `role`.
-const char* role_word(LineRole role);
-
 /// Edges of terrain faces, and how many of them are constrained. O(slots).
 struct EdgeCounts {
     std::size_t all = 0;

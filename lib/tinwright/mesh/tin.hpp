@@ -28,12 +28,14 @@ struct Tin {
     static constexpr std::uint32_t kNoSample = 0xFFFFFFFFU;
     /// `sample` of a vertex made where lines cross, or where a draped border crosses an edge of the TIN.
     static constexpr std::uint32_t kCrossing = 0xFFFFFFFEU;
+    /// `sample` of a vertex put into a face to give it relief.
+    static constexpr std::uint32_t kInserted = 0xFFFFFFFDU;
 
     Lattice lattice;
     LargeVector<Key2> keys;  ///< one a vertex, distinct, in the order of `curve.hpp`
     LargeVector<double> z;   ///< one a vertex, in the samples' unit
     /// What each vertex came from: the index of a sample, or the number of samples plus that of a line's
-    /// point (counted through all lines), or one of the two values above.
+    /// point (counted through all lines), or one of the three values above.
     LargeVector<std::uint32_t> sample;
     TriangleMesh mesh;
     /// Which constrained edges are parts of which lines; ascending, distinct. Constrained edges of the border

@@ -45,11 +45,21 @@ bool is_from_gradient(Product product);
 /// The product's name in `kProducts`.
 std::string_view product_name(Product product);
 
+/// A cell that gets an elevation of its own, whatever the surface says at its centre.
+struct CellElevation {
+    std::int64_t cell = 0;  ///< row times columns plus column
+    double z = 0;
+    friend bool operator==(const CellElevation&, const CellElevation&) = default;
+};
+
 struct GriddingOptions {
     std::vector<Product> products{Product::Elevation};
     SlopeUnit slope_unit = SlopeUnit::Degree;
     double z_factor = 1;  ///< heights count times this in slopes and gradients
     Light light{};
+    /// Ascending by cell, distinct. Only for the product Elevation, and only where the centre is on the
+    /// terrain.
+    std::vector<CellElevation> cells{};
 };
 
 /// Fills a raster with what a surface says at its cell centres, band of rows by band of rows.

@@ -1,0 +1,1 @@
+#include "tinwright/surface/facets.hpp"

@@ -1,0 +1,1 @@
+#include "tinwright/water/flat_faces.hpp"

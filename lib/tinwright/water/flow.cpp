@@ -1,0 +1,1 @@
+#include "tinwright/water/flow.hpp"

@@ -1,0 +1,1 @@
+#include "tinwright/water/isotonic_regression.hpp"

@@ -1,0 +1,1 @@
+#include "tinwright/water/river_cells.hpp"
