@@ -90,6 +90,33 @@ double CrossingElevations::slack(std::span<const LineVisit> visits) const {
 }
 
 MeetingElevation CrossingElevations::meet(std::span<const LineVisit> visits, std::uint32_t vertex) {
+    of_water_.clear();
+    for (const LineVisit& visit : visits) {
+        if (is_water(visit) && !std::isnan(elevation(visit, vertex))) {
+            of_water_.push_back(visit);
+        }
+    }
+    if (of_water_.empty() || of_water_.size() == visits.size()) {
+        return meet_all(visits, vertex);
+    }
+    MeetingElevation met = meet_all(of_water_, vertex);
+    if (met.is_clash) {
+        return met;
+    }
+    Range all;
+    for (const LineVisit& visit : visits) {
+        const double z = is_water(visit) ? met.z : elevation(visit, vertex);
+        if (!std::isnan(z)) {
+            all.add(z, &visit);
+        }
+    }
+    if (all.width() > options_.crossing_tolerance + slack(visits)) {
+        return {met.z, true, true, all.low, all.high, all.z_low, all.z_high};
+    }
+    return met;
+}
+
+MeetingElevation CrossingElevations::meet_all(std::span<const LineVisit> visits, std::uint32_t vertex) {
     said_.clear();
     Range all;
     Range of_points;
@@ -115,7 +142,7 @@ MeetingElevation CrossingElevations::meet(std::span<const LineVisit> visits, std
     const double rounding = slack(visits);
     const double tolerance = options_.crossing_tolerance;
     if (of_points.width() > tolerance || all.width() > tolerance + rounding) {
-        return {choose(all.z_low, all.z_high), true, all.low, all.high, all.z_low, all.z_high};
+        return {choose(all.z_low, all.z_high), true, false, all.low, all.high, all.z_low, all.z_high};
     }
     return {mean(of_points.low != nullptr && all.width() <= rounding)};
 }

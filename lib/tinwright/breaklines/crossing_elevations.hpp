@@ -14,6 +14,7 @@ namespace tinwright {
 struct MeetingElevation {
     double z = kDraped;  ///< the one chosen
     bool is_clash = false;
+    bool is_settled = false;  ///< a clash of water with other lines, which the water wins under any policy
     /// Only for a clash: the visits with the lowest and the highest elevation, and these.
     const LineVisit* low = nullptr;
     const LineVisit* high = nullptr;
@@ -35,6 +36,7 @@ class CrossingElevations {
     /// Chooses from what all lines say. They clash if points differ by more than the tolerance, or any by
     /// more than that and what comes of rounding: of arithmetic, and of locations. Without a clash it is the
     /// mean of the lines, or of the points where the rest differs by rounding only.
+    /// Where one of them is water, only water has a say.
     [[nodiscard]] MeetingElevation meet(std::span<const LineVisit> visits, std::uint32_t vertex);
 
   private:
@@ -45,6 +47,10 @@ class CrossingElevations {
     [[nodiscard]] double z_of_point(std::uint32_t line, std::uint32_t point) const {
         return lines_[line].points[point - points_.start[line]].z;
     }
+    [[nodiscard]] bool is_water(const LineVisit& visit) const {
+        return is_water_role(lines_[visit.line].role);
+    }
+    [[nodiscard]] MeetingElevation meet_all(std::span<const LineVisit> visits, std::uint32_t vertex);
     [[nodiscard]] double slack(std::span<const LineVisit> visits) const;
     [[nodiscard]] double mean(bool of_points_only);
     [[nodiscard]] double choose(double low, double high);
@@ -54,9 +60,10 @@ class CrossingElevations {
     const LineNetwork& network_;
     const RoundedSegments& rounded_;
     const NodingOptions& options_;
-    std::vector<Said> said_;          // in the order of the visits
-    std::vector<double> of_line_;     // scratch
-    std::vector<double> line_means_;  // scratch
+    std::vector<LineVisit> of_water_;  // scratch
+    std::vector<Said> said_;           // in the order of the visits
+    std::vector<double> of_line_;      // scratch
+    std::vector<double> line_means_;   // scratch
 };
 
 }  // namespace tinwright

@@ -36,6 +36,7 @@ struct PlacedConflict {
     std::uint32_t line_b;
     double z_a;
     double z_b;
+    bool is_settled;  ///< an ElevationClash that no policy needs to decide
 };
 
 constexpr double kNoZ = std::numeric_limits<double>::quiet_NaN();
@@ -114,12 +115,12 @@ class Noding {
         const MeetingElevation met = elevations.meet(visits, vertex);
         out_.z[vertex] = met.z;
         if (met.is_clash) {
-            add_pair({Kind::ElevationClash, Action::Chosen}, vertex, {met.low->line, met.z_low},
-                     {met.high->line, met.z_high}, found);
+            add_pair({Kind::ElevationClash, Action::Chosen, met.is_settled}, vertex,
+                     {met.low->line, met.z_low}, {met.high->line, met.z_high}, found);
         }
         if (visits.size() > 1) {
             for (const VisitPair& pair : find_meetings(visits, first_alike_)) {
-                add_pair({pair.kind, Action::Noded}, vertex,
+                add_pair({pair.kind, Action::Noded, true}, vertex,
                          {pair.a->line, elevations.elevation(*pair.a, vertex)},
                          {pair.b->line, elevations.elevation(*pair.b, vertex)}, found);
             }
@@ -129,6 +130,7 @@ class Noding {
     struct Sort {
         Kind kind;
         Action action;
+        bool is_settled;
     };
     struct LineThere {
         std::uint32_t line;
@@ -139,14 +141,14 @@ class Noding {
         if (a.line > b.line) {
             std::swap(a, b);
         }
-        found.push_back({vertex, sort.kind, sort.action, a.line, b.line, a.z, b.z});
+        found.push_back({vertex, sort.kind, sort.action, a.line, b.line, a.z, b.z, sort.is_settled});
     }
 
     void refuse_clashes() const {
         const PlacedConflict* first = nullptr;
         std::size_t count = 0;
         for (const PlacedConflict& conflict : conflicts_) {  // still in the order of vertices
-            if (conflict.kind == Kind::ElevationClash) {
+            if (!conflict.is_settled) {
                 first = first == nullptr ? &conflict : first;
                 ++count;
             }
@@ -261,7 +263,7 @@ class Noding {
                                   : elevations.elevation(is_second ? visits.back() : visits.front(), vertex);
         };
         const double z_b = line_b == LineConflict::kNone ? kNoZ : z_of(line_b, line_a == line_b);
-        conflicts_.push_back({vertex, kind, action, line_a, line_b, z_of(line_a, false), z_b});
+        conflicts_.push_back({vertex, kind, action, line_a, line_b, z_of(line_a, false), z_b, true});
     }
 
     /// Conflicts of the same place are one, named after the smallest line numbers.

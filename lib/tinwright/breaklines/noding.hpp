@@ -63,7 +63,8 @@ struct NodedLines {
 /// so that every piece stays within half a step (in x and in y) of its segment and no two pieces cross. All
 /// others stay exactly as they were.
 ///
-/// Elevations: of a line's point its z, else linear along the segment; draped lines take those of others.
+/// Elevations: of a line's point its z, else linear along the segment; draped lines take those of others,
+/// and so do all lines where they meet water (such a conflict is listed, but no error).
 /// Differences that come of rounding do not count, except between points: a part in 10^12 and, where lines
 /// were bent, two lattice steps up the steepest segment there. Lines that share points with one z have no
 /// conflict.

@@ -7,6 +7,8 @@
 #include <tuple>
 #include <utility>
 
+#include <tbb/parallel_for.h>
+
 #include "tinwright/breaklines/near_lines.hpp"
 #include "tinwright/delaunay/border_points.hpp"
 #include "tinwright/delaunay/constrained_delaunay.hpp"
@@ -14,6 +16,7 @@
 #include "tinwright/delaunay/drape.hpp"
 #include "tinwright/delaunay/sample_meetings.hpp"
 #include "tinwright/delaunay/terrain_ring.hpp"
+#include "tinwright/delaunay/water_areas.hpp"
 #include "tinwright/geometry/constructions.hpp"
 #include "tinwright/geometry/curve.hpp"
 #include "tinwright/geometry/decimal.hpp"
@@ -67,6 +70,7 @@ class Maker {
         result_.duplicates = sample_vertices_.duplicates;
         prepare_drape();
         node();
+        clear_water();
         merge();
         tin().mesh = make_delaunay(tin().keys, spare_vertices());
         if (tin().mesh.count_terrain() > 0) {
@@ -142,9 +146,11 @@ class Maker {
         }
         first_line_.assign(noded_.keys.size(), LineConflict::kNone);
         is_on_ring_.assign(noded_.keys.size(), false);
+        has_water_.assign(noded_.keys.size(), false);
         for (const NodedPiece& piece : noded_.pieces) {
             for (const std::uint32_t end : {piece.a, piece.b}) {
                 first_line_[end] = std::min(first_line_[end], piece.line);
+                has_water_[end] = has_water_[end] || is_water_line(piece.line);
                 is_on_ring_[end] = is_on_ring_[end] || is_ring(piece.line);
             }
         }
@@ -155,6 +161,52 @@ class Maker {
                 result_.lines.conflicts.push_back(conflict);
             }
         }
+    }
+
+    // What counts for nothing, as water is there.
+    void clear_water() {
+        water_.emplace(noded_, lines_);
+        is_cleared_sample_.assign(sample_vertices_.keys.size(), 0);
+        is_cleared_vertex_.assign(noded_.keys.size(), 0);
+        if (water_->is_empty()) {
+            return;
+        }
+        tbb::parallel_for(std::size_t{0}, sample_vertices_.keys.size(), [this](std::size_t i) {
+            is_cleared_sample_[i] = water_->around(sample_vertices_.keys[i]) ? 1 : 0;
+        });
+        const auto is_cleared_line = [this](std::uint32_t line) {
+            return !is_ring(line) &&
+                   (lines_[line].role == LineRole::Breakline || lines_[line].role == LineRole::River);
+        };
+        std::vector<char> is_kept(noded_.keys.size());
+        std::vector<char> is_of_water(noded_.keys.size());
+        const auto is_cleared = [&](const NodedPiece& piece) {
+            if (is_cleared_line(piece.line)) {
+                return water_->around(piece).has_value();
+            }
+            is_kept[piece.a] = is_kept[piece.b] = 1;
+            if (is_water_line(piece.line)) {
+                is_of_water[piece.a] = is_of_water[piece.b] = 1;
+            }
+            return false;
+        };
+        result_.lines.cleared_pieces = std::erase_if(noded_.pieces, is_cleared);
+        for (std::uint32_t k = 0; k < noded_.keys.size(); ++k) {
+            if (is_of_water[k] != 0 || !water_->around(noded_.keys[k])) {
+                continue;
+            }
+            if (is_kept[k] == 0) {
+                is_cleared_vertex_[k] = 1;
+            } else {
+                on_water_.push_back(k);
+            }
+        }
+        result_.lines.cleared_samples = static_cast<std::size_t>(
+            std::count(is_cleared_sample_.begin(), is_cleared_sample_.end(), char{1}));
+    }
+
+    [[nodiscard]] bool is_water_line(std::uint32_t number) const {
+        return !is_ring(number) && is_water_role(lines_[number].role);
     }
 
     // A line that is draped all along, whatever it has got where it meets others. So is the ring.
@@ -204,6 +256,12 @@ class Maker {
         std::size_t k = 0;
         auto border_point = border_points_.begin();
         for (;;) {
+            while (i < keys.size() && is_cleared_sample_[i] != 0) {
+                ++i;
+            }
+            while (k < noded.size() && is_cleared_vertex_[k] != 0) {
+                ++k;
+            }
             const VertexId v{static_cast<std::uint32_t>(tin().keys.size())};
             const bool has_border_point = border_point != border_points_.end() &&
                                           (i == keys.size() || precedes_on_curve(*border_point, keys[i])) &&
@@ -241,7 +299,7 @@ class Maker {
             if (has_line) {
                 vertex_of_[k] = v;
                 if (has_sample && !std::isnan(noded_.z[k])) {
-                    meetings_.push_back({v, noded_.z[k], first_line_[k]});
+                    meetings_.push_back({v, noded_.z[k], first_line_[k], has_water_[k]});
                 }
             }
             i += has_sample ? 1U : 0U;
@@ -267,7 +325,8 @@ class Maker {
             const NodedPiece* with_elevation = nullptr;
             for (std::size_t p = first_piece[edge.segment]; p < first_piece[edge.segment + 1]; ++p) {
                 traces.push_back({edge.a, edge.b, pieces[p].line, pieces[p].runs});
-                if (with_elevation == nullptr && !is_draped_[pieces[p].line]) {
+                const bool has_elevation = !is_draped_[pieces[p].line];
+                if (has_elevation && (with_elevation == nullptr || is_water_line(pieces[p].line))) {
                     with_elevation = &pieces[p];
                 }
             }
@@ -302,7 +361,7 @@ class Maker {
         const auto way = [&](VertexId v) { return inner_product(tin().key(v), from, to) / length; };
         const VertexId v = way(edge.a) < way(edge.b) ? edge.b : edge.a;
         if (v != segment.a && v != segment.b) {
-            meetings_.push_back({v, z_a + way(v) * (z_b - z_a), piece.line});
+            meetings_.push_back({v, z_a + way(v) * (z_b - z_a), piece.line, is_water_line(piece.line)});
         }
     }
 
@@ -315,13 +374,24 @@ class Maker {
     void lay_draped() {
         std::vector<VertexId> outside;
         for (const VertexId v : draped_) {
+            if (const auto polygon = water_->around(tin().key(v))) {
+                tin().z[v.value] = water_->level(*polygon, tin().key(v));
+                continue;
+            }
             const Drape::Elevation found = drape_->at(tin().key(v));
             tin().z[v.value] = found.z;
             if (found.is_outside) {
                 outside.push_back(v);
             }
         }
+        for (const std::uint32_t k : on_water_) {
+            const Key2 key = noded_.keys[k];
+            tin().z[vertex_of_[k].value] = water_->level(*water_->around(key), key);
+        }
         for (std::uint32_t k = 0, i = 0; k < vertex_of_.size(); ++k) {
+            if (is_cleared_vertex_[k] != 0) {
+                continue;
+            }
             while (i < outside.size() && outside[i] < vertex_of_[k]) {
                 ++i;  // of a border, between its points
             }
@@ -375,8 +445,13 @@ class Maker {
     std::vector<VertexId> vertex_of_;        // of the noded vertices
     std::vector<std::uint32_t> first_line_;  // through each of the noded vertices
     std::vector<bool> is_on_ring_;           // each of the noded vertices
-    std::vector<bool> is_draped_;            // each line, and the ring
-    std::vector<Key2> border_points_;        // vertices of draped borders, between those of their own
+    std::vector<bool> has_water_;            // a line of water through each of the noded vertices
+    std::optional<WaterAreas> water_;
+    std::vector<char> is_cleared_sample_;  // of the sample vertices: left out
+    std::vector<char> is_cleared_vertex_;  // of the noded vertices: left out
+    std::vector<std::uint32_t> on_water_;  // noded vertices of borders that have the water's elevation
+    std::vector<bool> is_draped_;          // each line, and the ring
+    std::vector<Key2> border_points_;      // vertices of draped borders, between those of their own
     std::vector<VertexId> draped_;  // vertices whose elevation is yet to be taken from the samples' TIN
     std::vector<SampleMeeting> meetings_;
     ConstrainedTin result_;

@@ -30,6 +30,9 @@ struct LinesReport {
     std::size_t line_points = 0;        ///< points of the lines, as they came
     std::size_t crossing_vertices = 0;  ///< vertices made where lines cross
     std::size_t draped_vertices = 0;    ///< vertices of lines that got z from the samples' TIN
+    std::size_t cleared_samples =
+        0;  ///< locations of samples left out, as they are in a lake or between banks
+    std::size_t cleared_pieces = 0;  ///< parts of breaklines and rivers left out likewise
     std::vector<LineConflict> conflicts;
 };
 
@@ -47,10 +50,12 @@ struct ConstrainedTin {
 /// lines without from the samples' TIN, segments.
 ///
 /// A sample at a line's vertex or on one of its segments counts as a duplicate of the line there, and follows
-/// the policy for duplicates as if lines were read after all samples.
-/// Throws InputError and BreaklineError for what cannot be used: see `make_sample_vertices`, `node_lines`;
-/// rings that are not closed; lines to be draped without samples to drape them on; all locations collinear.
-/// O((n + p) log (n + p)) for n samples and p pieces in practice.
+/// the policy for duplicates as if lines were read after all samples; a line of a water role keeps its z.
+/// Strictly inside polygons of roles Lake and Bank nothing counts but lines of roles Lake, Bank and Section,
+/// and borders, which get the elevation of the water. Throws InputError and BreaklineError for what cannot be
+/// used: see `make_sample_vertices`, `node_lines`; rings that are not closed; lines to be draped without
+/// samples to drape them on; all locations collinear. O((n + p) log (n + p)) for n samples and p pieces in
+/// practice.
 ConstrainedTin make_constrained_tin(std::span<const Point3> samples, std::span<const Breakline> lines,
                                     const ConstrainedTinOptions& options = {});
 

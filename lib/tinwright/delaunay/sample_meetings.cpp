@@ -25,7 +25,11 @@ std::optional<LineConflict> resolve(Tin& tin, std::span<const SampleMeeting> mee
     std::sort(sorted.begin(), sorted.end());
     const bool clashes = sorted.back() - sorted.front() > options.tolerance;
     (clashes ? duplicates.conflicting : duplicates.equal) += 1;
-    if (options.policy == DuplicatePolicy::Last) {
+    const auto of_water =
+        std::find_if(meetings.begin(), meetings.end(), [](const SampleMeeting& m) { return m.is_water; });
+    if (of_water != meetings.end()) {
+        tin.z[v.value] = of_water->z;
+    } else if (options.policy == DuplicatePolicy::Last) {
         tin.z[v.value] =
             std::max_element(meetings.begin(), meetings.end(),
                              [](const SampleMeeting& a, const SampleMeeting& b) { return a.line < b.line; })
@@ -67,17 +71,22 @@ std::optional<LineConflict> resolve(Tin& tin, std::span<const SampleMeeting> mee
 std::vector<LineConflict> resolve_meetings(Tin& tin, std::vector<SampleMeeting> meetings,
                                            const DuplicateOptions& options, DuplicateReport& duplicates) {
     std::sort(meetings.begin(), meetings.end());
+    const auto is_of_water = [](const SampleMeeting& meeting) { return meeting.is_water; };
     std::vector<LineConflict> clashes;
+    std::vector<LineConflict> refused;
     for (auto first = meetings.begin(); first != meetings.end();) {
         const auto last = std::find_if(first, meetings.end(),
                                        [&](const SampleMeeting& m) { return m.vertex != first->vertex; });
         if (const auto clash = resolve(tin, {first, last}, options, duplicates)) {
             clashes.push_back(*clash);
+            if (std::none_of(first, last, is_of_water)) {
+                refused.push_back(*clash);
+            }
         }
         first = last;
     }
-    if (!clashes.empty() && options.policy == DuplicatePolicy::Error) {
-        throw_clashes(clashes.front(), clashes.size());
+    if (!refused.empty() && options.policy == DuplicatePolicy::Error) {
+        throw_clashes(refused.front(), refused.size());
     }
     return clashes;
 }

@@ -15,12 +15,13 @@ struct SampleMeeting {
     VertexId vertex;
     double z;            ///< of the line there
     std::uint32_t line;  ///< its number
+    bool is_water;       ///< the line's z counts under any policy
     friend auto operator<=>(const SampleMeeting&, const SampleMeeting&) = default;
 };
 
 /// Gives each vertex where a sample and lines meet one elevation, by the policy for duplicates, as if lines
 /// were read after all samples. Counts the meetings in `duplicates` and returns those that clash, by vertex.
-/// Throws BreaklineError under policy Error when any do. O(n log n).
+/// Throws BreaklineError under policy Error when any do that are not of water. O(n log n).
 std::vector<LineConflict> resolve_meetings(Tin& tin, std::vector<SampleMeeting> meetings,
                                            const DuplicateOptions& options, DuplicateReport& duplicates);
 

@@ -1,0 +1,99 @@
+#include "tinwright/delaunay/water_areas.hpp"
+
+#include <algorithm>
+
+#include "tinwright/breaklines/segment_distance.hpp"
+#include "tinwright/geometry/predicates.hpp"
+
+namespace tinwright {
+
+WaterAreas::WaterAreas(const NodedLines& noded, std::span<const Breakline> lines) : noded_(noded) {
+    const auto is_side = [&](const NodedPiece& piece) {
+        return piece.line < lines.size() && is_cleared_role(lines[piece.line].role) && piece.runs % 2 != 0;
+    };
+    const auto polygon_of = [&](const NodedPiece& piece) {
+        return std::pair(lines[piece.line].role, lines[piece.line].polygon);
+    };
+    for (const NodedPiece& piece : noded.pieces) {
+        if (is_side(piece)) {
+            polygons_.push_back(polygon_of(piece));
+        }
+    }
+    std::sort(polygons_.begin(), polygons_.end());
+    polygons_.erase(std::unique(polygons_.begin(), polygons_.end()), polygons_.end());
+    for (const NodedPiece& piece : noded.pieces) {
+        if (is_side(piece)) {
+            CleanLine side;
+            side.keys = {twice(noded.keys[piece.a]), twice(noded.keys[piece.b])};
+            side.z.resize(2);
+            const KeyBox box = KeyBox::of(side.keys);
+            sides_.empty() ? void(box_ = box) : box_.add(box);
+            sides_.push_back(std::move(side));
+            const auto place = std::lower_bound(polygons_.begin(), polygons_.end(), polygon_of(piece));
+            polygon_of_.push_back(static_cast<std::uint32_t>(place - polygons_.begin()));
+            ends_.emplace_back(piece.a, piece.b);
+        }
+    }
+    segments_.emplace(sides_);
+}
+
+std::optional<std::uint32_t> WaterAreas::around(const NodedPiece& piece) const {
+    const Key2 a = noded_.keys[piece.a];
+    const Key2 b = noded_.keys[piece.b];
+    return find({a.x + b.x, a.y + b.y});
+}
+
+std::optional<std::uint32_t> WaterAreas::find(Key2 key) const {
+    if (is_empty() || !box_.meets({key, key})) {
+        return std::nullopt;
+    }
+    std::vector<std::uint32_t> passed;  // polygons whose rings the way to the right passes, once a passing
+    std::vector<std::uint32_t> touched;
+    segments_->visit_meeting({key, {box_.high.x, key.y}}, [&](const LineSegments::Segment& segment) {
+        const Key2 a = segments_->start(segment);
+        const Key2 b = segments_->end(segment);
+        if (is_on_segment(key, a, b)) {
+            touched.push_back(polygon_of_[segment.line]);
+        }
+        // Each end belongs to the upper part, so that a corner at the key's height counts once or twice.
+        const bool goes_up = a.y <= key.y && b.y > key.y;
+        const bool goes_down = b.y <= key.y && a.y > key.y;
+        if ((goes_up && orient2d(a, b, key) > 0) || (goes_down && orient2d(a, b, key) < 0)) {
+            passed.push_back(polygon_of_[segment.line]);
+        }
+    });
+    std::sort(passed.begin(), passed.end());
+    for (auto first = passed.begin(); first != passed.end();) {
+        const auto last = std::upper_bound(first, passed.end(), *first);
+        const bool is_inside = (last - first) % 2 != 0;
+        if (is_inside && std::find(touched.begin(), touched.end(), *first) == touched.end()) {
+            return *first;
+        }
+        first = last;
+    }
+    return std::nullopt;
+}
+
+double WaterAreas::level(std::uint32_t polygon, Key2 key) {
+    std::unique_ptr<Surface>& surface = surfaces_[polygon];
+    if (!surface) {
+        surface = std::make_unique<Surface>();
+        std::vector<std::uint32_t> vertices;
+        for (std::size_t i = 0; i < ends_.size(); ++i) {
+            if (polygon_of_[i] == polygon) {
+                vertices.push_back(ends_[i].first);
+                vertices.push_back(ends_[i].second);
+            }
+        }
+        std::sort(vertices.begin(), vertices.end());  // the order of the curve
+        vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+        for (const std::uint32_t v : vertices) {
+            surface->keys.push_back(noded_.keys[v]);
+            surface->z.push_back(noded_.z[v]);
+        }
+        surface->drape.emplace(surface->keys, surface->z);
+    }
+    return surface->drape->at(key).z;
+}
+
+}  // namespace tinwright
