@@ -99,6 +99,106 @@ Tin scaled(Tin tin, double factor) {
     return tin;
 }
 
+/// The faces of a mesh by the part of edge-sharing faces that they are in, and its outer border edges.
+struct Parts {
+    std::vector<std::size_t> part_of;  // by slot; ghosts have none
+    std::set<Ends> outer;
+};
+
+/// `full`: a triangulation of a convex area, of which `tin` has some of the faces, their corners the same.
+/// What is outside of a part is what can be reached from outside the hull through faces that the part has
+/// not.
+Parts find_parts(const Tin& tin, const Tin& full) {
+    Parts parts;
+    parts.part_of.assign(tin.mesh.slot_count(), 0);
+    std::size_t count = 0;
+    const auto flood = [](const TriangleMesh& mesh, std::uint32_t start, const auto& enter) {
+        std::vector<std::uint32_t> todo = {start};
+        while (!todo.empty()) {
+            const std::uint32_t f = todo.back();
+            todo.pop_back();
+            for (unsigned corner = 0; corner < 3; ++corner) {
+                const std::uint32_t across = face_of(mesh.twin(half_edge({f}, corner))).value;
+                if (enter(across, half_edge({f}, corner))) {
+                    todo.push_back(across);
+                }
+            }
+        }
+    };
+    for (std::uint32_t f = 0; f < tin.mesh.slot_count(); ++f) {
+        if (tin.mesh.is_ghost({f}) || parts.part_of[f] != 0) {
+            continue;
+        }
+        const std::size_t part = ++count;
+        parts.part_of[f] = part;
+        std::set<Ends> edges;
+        flood(tin.mesh, f, [&](std::uint32_t across, HalfEdgeId h) {
+            edges.emplace(tin.mesh.origin(h).value, tin.mesh.destination(h).value);
+            const bool is_new = !tin.mesh.is_ghost({across}) && parts.part_of[across] == 0;
+            parts.part_of[across] = is_new ? part : parts.part_of[across];
+            return is_new;
+        });
+        std::uint32_t ghost = 0;
+        while (!full.mesh.is_ghost({ghost})) {
+            ++ghost;
+        }
+        std::vector<bool> is_outside(full.mesh.slot_count());
+        is_outside[ghost] = true;
+        flood(full.mesh, ghost, [&](std::uint32_t across, HalfEdgeId h) {
+            const Ends inward{full.mesh.destination(h).value, full.mesh.origin(h).value};
+            if (edges.count(inward) != 0) {
+                parts.outer.insert(inward);
+                return false;
+            }
+            const bool is_new = !is_outside[across];
+            is_outside[across] = true;
+            return is_new;
+        });
+    }
+    return parts;
+}
+
+/// A mesh of some of the faces of `full`, its terrain.
+Tin some_faces(Random& random, const Tin& full, std::int64_t percent) {
+    std::vector<std::uint32_t> corners;
+    for (const auto& face : terrain_of(full.mesh)) {
+        if (corners.empty() || random.integer(0, 99) < percent) {
+            corners.insert(corners.end(), face.begin(), face.end());
+        }
+    }
+    Tin tin = tin_of(full.keys);
+    tin.mesh = mesh_of(full.keys.size(), corners);
+    return tin;
+}
+
+/// Makes the border of a set of faces the rings of a polygon: the edges shared out between its lines. What an
+/// edge at a void says is chance.
+void trace_border(Random& random, Tin& tin, const Parts& parts, const std::vector<bool>& is_inside,
+                  std::uint32_t first_line, std::int64_t line_count) {
+    for (std::uint32_t f = 0; f < tin.mesh.slot_count(); ++f) {
+        for (unsigned corner = 0; corner < 3; ++corner) {
+            const HalfEdgeId h = half_edge({f}, corner);
+            const std::uint32_t across = face_of(tin.mesh.twin(h)).value;
+            const bool is_at_ghost = tin.mesh.is_ghost({across});
+            if (tin.mesh.is_ghost({f}) || (!is_at_ghost && across < f)) {
+                continue;
+            }
+            const Ends ends{tin.mesh.origin(h).value, tin.mesh.destination(h).value};
+            const bool is_void = is_at_ghost && parts.outer.count(ends) == 0;
+            const bool is_ring =
+                is_void ? random.integer(0, 1) == 0 : is_inside[f] != (!is_at_ghost && is_inside[across]);
+            const auto runs =
+                static_cast<std::uint32_t>(random.integer(0, 9) == 0 ? 2 : 0) + (is_ring ? 1U : 0U);
+            if (runs != 0) {
+                const auto [a, b] = std::minmax(ends.first, ends.second);
+                const auto line = first_line + static_cast<std::uint32_t>(random.integer(0, line_count - 1));
+                tin.traces.push_back({{a}, {b}, line, runs});
+                tin.mesh.set_constrained(h, true);
+            }
+        }
+    }
+}
+
 }  // namespace
 
 TEST_SUITE("breaklines/domain") {
@@ -230,5 +330,72 @@ TEST_SUITE("breaklines/domain") {
                 }
             }
         }
+    }
+
+    TEST_CASE("water faces are those inside lakes and banks, in meshes of many parts with voids too") {
+        const std::vector<LineRole> roles = {LineRole::Lake, LineRole::Bank, LineRole::Hole};
+        for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(cases(300)); ++seed) {
+            CAPTURE(seed);
+            Random random(seed);
+            const Tin full =
+                delaunay_tin(some_keys(random, static_cast<std::size_t>(random.integer(4, 60)), 40));
+            if (full.mesh.count_terrain() == 0) {
+                continue;
+            }
+            Tin tin = some_faces(random, full, random.integer(0, 2) == 0 ? 100 : random.integer(30, 95));
+            const Parts parts = find_parts(tin, full);
+            std::vector<bool> expected(tin.mesh.slot_count());
+            std::vector<Breakline> lines;
+            bool has_water = false;
+            for (std::int64_t polygon = random.integer(0, 4); polygon > 0; --polygon) {
+                const LineRole role = roles[static_cast<std::size_t>(random.integer(0, 2))];
+                has_water = has_water || role != LineRole::Hole;
+                std::vector<bool> is_inside(tin.mesh.slot_count());
+                const std::int64_t percent = random.integer(5, 95);
+                for (std::uint32_t f = 0; f < tin.mesh.slot_count(); ++f) {
+                    is_inside[f] = !tin.mesh.is_ghost({f}) && random.integer(0, 99) < percent;
+                    expected[f] = expected[f] || (is_inside[f] && role != LineRole::Hole);
+                }
+                const std::int64_t line_count = random.integer(1, 3);
+                trace_border(random, tin, parts, is_inside, static_cast<std::uint32_t>(lines.size()),
+                             line_count);
+                lines.resize(lines.size() + static_cast<std::size_t>(line_count),
+                             {{}, role, true, static_cast<std::uint32_t>(polygon)});
+            }
+            std::sort(tin.traces.begin(), tin.traces.end());
+            for (std::uint32_t f = 0; f < tin.mesh.slot_count(); ++f) {
+                if (!tin.mesh.is_ghost({f}) && random.integer(0, 9) == 0) {
+                    tin.mesh.set_terrain({f}, false);
+                    expected[f] = false;
+                }
+            }
+            CHECK(find_water_faces(tin, lines) == (has_water ? expected : std::vector<bool>{}));
+        }
+    }
+
+    TEST_CASE("a void that touches the first vertex of the border is no way in") {
+        Tin tin = tin_of(std::vector<Key2>{{0, 0}, {2, -3}, {2, -1}, {2, 1}, {2, 3}, {4, 0}});
+        tin.mesh = mesh_of(6, {0, 3, 4, 0, 1, 2, 1, 5, 2, 2, 5, 3, 3, 5, 4});
+        for (const Ends& ends : {Ends{0, 1}, Ends{0, 4}, Ends{1, 5}, Ends{4, 5}}) {
+            tin.traces.push_back({{ends.first}, {ends.second}, 0, 1});
+        }
+        constrain_border(tin);
+        const std::vector<bool> is_water =
+            find_water_faces(tin, std::vector<Breakline>{{{}, LineRole::Lake}});
+        CHECK(std::count(is_water.begin(), is_water.end(), true) == 5);
+    }
+
+    TEST_CASE("faces that are kept may have edges as long as they like") {
+        Random random(7);
+        Tin tin = delaunay_tin(some_keys(random, 100, 1000));
+        std::vector<bool> is_kept(tin.mesh.slot_count());
+        std::size_t kept = 0;
+        for (std::uint32_t f = 0; f < tin.mesh.slot_count(); f += 3) {
+            is_kept[f] = tin.mesh.is_terrain({f});
+            kept += is_kept[f] ? 1U : 0U;
+        }
+        const std::size_t faces = tin.mesh.count_terrain();
+        CHECK(drop_long_faces(tin, 0.5, is_kept) == faces - kept);
+        CHECK(tin.mesh.count_terrain() == kept);
     }
 }

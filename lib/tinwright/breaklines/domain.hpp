@@ -35,7 +35,9 @@ std::size_t apply_polygons(Tin& tin, std::span<const Breakline> lines,
                            std::optional<std::uint32_t> terrain_ring = {});
 
 /// Which face slots are water: terrain inside a polygon of role Lake or Bank. `lines`: those that
-/// `tin.traces` number; empty where no line is such a polygon. Exact, and decided as `apply_polygons` does.
+/// `tin.traces` number; empty where no line is such a polygon. Exact, and decided as `apply_polygons` does,
+/// for each part of the mesh (of faces that share edges) from outside its outer border, where no water is.
+/// O(slots + traces log n + hull log hull).
 std::vector<bool> find_water_faces(const Tin& tin, std::span<const Breakline> lines);
 
 /// Marks the faces outside the domain; every sample stays on or inside its border, which remains one

@@ -1,10 +1,13 @@
 #include <algorithm>
 #include <cstdint>
 #include <iterator>
+#include <optional>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "tinwright/breaklines/domain.hpp"
+#include "tinwright/geometry/predicates.hpp"
 
 namespace tinwright {
 
@@ -28,14 +31,64 @@ Polygons symmetric_difference(const Polygons& a, const Polygons& b) {
     return result;
 }
 
+/// The half-edges of a mesh from which its parts (of faces that share edges) can be entered from outside, in
+/// an order such that the first one of a part not yet entered leads in from beyond its outer border, not from
+/// a void in it.
+class PartEntries {
+  public:
+    explicit PartEntries(const Tin& tin) : tin_(tin) {
+        for (std::uint32_t f = 0; f < tin.mesh.slot_count(); ++f) {
+            const HalfEdgeId inward = tin.mesh.twin(half_edge({f}, 0));
+            if (tin.mesh.is_ghost({f}) && !tin.mesh.is_ghost(face_of(inward))) {
+                entries_.push_back(inward);
+            }
+        }
+        // A part's least vertex is on its outer border.
+        std::sort(entries_.begin(), entries_.end(), [&](HalfEdgeId g, HalfEdgeId h) {
+            const Key2 a = tin.key(tin.mesh.origin(g));
+            const Key2 b = tin.key(tin.mesh.origin(h));
+            return std::tie(a.x, a.y, g) < std::tie(b.x, b.y, h);
+        });
+    }
+
+    /// `is_entered`: by face. Those asked about stay entered.
+    std::optional<HalfEdgeId> next(const std::vector<bool>& is_entered) {
+        while (at_ < entries_.size() && is_entered[face_of(entries_[at_]).value]) {
+            ++at_;
+        }
+        if (at_ == entries_.size()) {
+            return {};
+        }
+        // Several edges leave the vertex where a void or another part touches it: all to one side, and the
+        // first of them, counter-clockwise, has only the outside before it.
+        const VertexId from = tin_.mesh.origin(entries_[at_]);
+        HalfEdgeId first = entries_[at_];
+        for (std::size_t i = at_; i < entries_.size() && tin_.mesh.origin(entries_[i]) == from; ++i) {
+            const VertexId to = tin_.mesh.destination(entries_[i]);
+            if (!is_entered[face_of(entries_[i]).value] &&
+                orient2d(tin_.key(from), tin_.key(tin_.mesh.destination(first)), tin_.key(to)) < 0) {
+                first = entries_[i];
+            }
+        }
+        return first;
+    }
+
+  private:
+    const Tin& tin_;
+    std::vector<HalfEdgeId> entries_;
+    std::size_t at_ = 0;
+};
+
 /// Walks over all faces from outside, area by area, knowing which polygons each area is inside of.
 class AreaWalk {
   public:
-    AreaWalk(Tin& tin, std::span<const Breakline> lines, std::optional<std::uint32_t> terrain_ring)
-        : mesh_(tin.mesh) {
+    /// Counts the polygons of the roles that are wanted.
+    AreaWalk(const Tin& tin, std::span<const Breakline> lines, bool (*is_wanted)(LineRole),
+             std::optional<std::uint32_t> terrain_ring = {})
+        : tin_(tin), has_terrain_ring_(terrain_ring.has_value()), is_reached_(tin.mesh.slot_count()) {
         for (const LineTrace& trace : tin.traces) {
             const bool is_ring = trace.line == terrain_ring;
-            if (trace.runs % 2 == 0 || (!is_ring && !is_polygon_role(lines[trace.line].role))) {
+            if (trace.runs % 2 == 0 || (!is_ring && !is_wanted(lines[trace.line].role))) {
                 continue;
             }
             const PolygonId polygon = is_ring ? PolygonId{LineRole::Hole, kTerrainRing}
@@ -45,56 +98,26 @@ class AreaWalk {
             }
             sides_.back().polygons = symmetric_difference(sides_.back().polygons, {polygon});
         }
-        has_boundary_ = std::any_of(lines.begin(), lines.end(),
-                                    [](const Breakline& line) { return line.role == LineRole::Boundary; });
-        has_terrain_ring_ = terrain_ring.has_value();
     }
 
-    std::size_t run() {
-        std::vector<bool> is_reached(mesh_.slot_count());
-        std::uint32_t ghost = 0;
-        while (!mesh_.is_ghost({ghost})) {
-            ++ghost;
-        }
-        Polygons around;
-        if (has_terrain_ring_) {
-            around.push_back({LineRole::Hole, kTerrainRing});
-        }
-        std::vector<std::pair<FaceId, Polygons>> entries = {{FaceId{ghost}, around}};
-        std::size_t marked = 0;
-        std::vector<FaceId> area;
-        while (!entries.empty()) {
-            const auto [entry, polygons] = std::move(entries.back());
-            entries.pop_back();
-            if (is_reached[entry.value]) {
-                continue;
-            }
-            const bool is_cut = is_cut_off(polygons);
-            is_reached[entry.value] = true;
-            area.assign(1, entry);
-            while (!area.empty()) {
-                const FaceId face = area.back();
-                area.pop_back();
-                if (is_cut && mesh_.is_terrain(face)) {
-                    mesh_.set_terrain(face, false);
-                    ++marked;
+    /// Calls `visit` for each face of the areas whose polygons `is_sought` says yes to.
+    template <class IsSought, class Visit>
+    void run(const IsSought& is_sought, const Visit& visit) {
+        PartEntries parts(tin_);
+        while (const std::optional<HalfEdgeId> part = parts.next(is_reached_)) {
+            entries_.emplace_back(face_of(*part), inside_of(*part));
+            while (!entries_.empty()) {
+                const auto [entry, polygons] = std::move(entries_.back());
+                entries_.pop_back();
+                if (is_reached_[entry.value]) {
+                    continue;
                 }
-                for (unsigned corner = 0; corner < 3; ++corner) {
-                    const HalfEdgeId h = half_edge(face, corner);
-                    const FaceId across = face_of(mesh_.twin(h));
-                    if (is_reached[across.value]) {
-                        continue;
-                    }
-                    if (const Polygons* const side = find_side(h)) {
-                        entries.emplace_back(across, symmetric_difference(polygons, *side));
-                    } else {
-                        is_reached[across.value] = true;
-                        area.push_back(across);
-                    }
+                find_area(entry, polygons);
+                if (is_sought(polygons)) {
+                    std::for_each(area_.begin(), area_.end(), visit);
                 }
             }
         }
-        return marked;
     }
 
   private:
@@ -106,10 +129,11 @@ class AreaWalk {
     };
 
     [[nodiscard]] const Polygons* find_side(HalfEdgeId h) const {
-        if (!mesh_.is_constrained(h)) {
+        const TriangleMesh& mesh = tin_.mesh;
+        if (!mesh.is_constrained(h)) {
             return nullptr;
         }
-        const std::pair<VertexId, VertexId> edge = std::minmax(mesh_.origin(h), mesh_.destination(h));
+        const std::pair<VertexId, VertexId> edge = std::minmax(mesh.origin(h), mesh.destination(h));
         const auto found = std::lower_bound(
             sides_.begin(), sides_.end(), edge,
             [](const Side& side, const auto& sought) { return std::pair(side.a, side.b) < sought; });
@@ -118,35 +142,93 @@ class AreaWalk {
         return is_side ? &found->polygons : nullptr;
     }
 
-    [[nodiscard]] bool is_cut_off(const Polygons& polygons) const {
-        const auto has = [&](LineRole role) {
-            return std::any_of(polygons.begin(), polygons.end(),
-                               [role](const PolygonId& polygon) { return polygon.role == role; });
-        };
-        return has(LineRole::Hole) || (has_boundary_ && !has(LineRole::Boundary));
+    /// The polygons around the area behind an edge of the outer border.
+    [[nodiscard]] Polygons inside_of(HalfEdgeId h) const {
+        Polygons outside;
+        if (has_terrain_ring_) {
+            outside.push_back({LineRole::Hole, kTerrainRing});
+        }
+        const Polygons* const side = find_side(h);
+        return side != nullptr ? symmetric_difference(outside, *side) : outside;
     }
 
-    TriangleMesh& mesh_;
+    /// The faces from one on, up to rings, and the ways on behind these.
+    void find_area(FaceId entry, const Polygons& polygons) {
+        const TriangleMesh& mesh = tin_.mesh;
+        is_reached_[entry.value] = true;
+        area_.assign(1, entry);
+        for (std::size_t i = 0; i < area_.size(); ++i) {
+            for (unsigned corner = 0; corner < 3; ++corner) {
+                const HalfEdgeId h = half_edge(area_[i], corner);
+                const FaceId across = face_of(mesh.twin(h));
+                if (mesh.is_ghost(across) || is_reached_[across.value]) {
+                    continue;
+                }
+                if (const Polygons* const side = find_side(h)) {
+                    entries_.emplace_back(across, symmetric_difference(polygons, *side));
+                } else {
+                    is_reached_[across.value] = true;
+                    area_.push_back(across);
+                }
+            }
+        }
+    }
+
+    const Tin& tin_;
     std::vector<Side> sides_;  // by a, b
-    bool has_boundary_ = false;
-    bool has_terrain_ring_ = false;
+    bool has_terrain_ring_;
+    std::vector<bool> is_reached_;  // by face
+    std::vector<std::pair<FaceId, Polygons>> entries_;
+    std::vector<FaceId> area_;
 };
+
+bool is_domain_role(LineRole role) { return role == LineRole::Boundary || role == LineRole::Hole; }
+
+bool has_role(const Polygons& polygons, LineRole role) {
+    return std::any_of(polygons.begin(), polygons.end(),
+                       [role](const PolygonId& polygon) { return polygon.role == role; });
+}
 
 }  // namespace
 
 std::size_t apply_polygons(Tin& tin, std::span<const Breakline> lines,
                            std::optional<std::uint32_t> terrain_ring) {
-    const bool has_polygons = std::any_of(lines.begin(), lines.end(), [](const Breakline& line) {
-        return line.role == LineRole::Boundary || line.role == LineRole::Hole;
-    });
+    const auto has_line = [&](LineRole role) {
+        return std::any_of(lines.begin(), lines.end(),
+                           [role](const Breakline& line) { return line.role == role; });
+    };
+    const bool has_boundary = has_line(LineRole::Boundary);
     std::size_t marked = 0;
-    if (has_polygons || terrain_ring) {
-        marked = AreaWalk(tin, lines, terrain_ring).run();
+    if (has_boundary || has_line(LineRole::Hole) || terrain_ring) {
+        AreaWalk(tin, lines, is_domain_role, terrain_ring)
+            .run(
+                [&](const Polygons& polygons) {
+                    return has_role(polygons, LineRole::Hole) ||
+                           (has_boundary && !has_role(polygons, LineRole::Boundary));
+                },
+                [&](FaceId face) {
+                    if (tin.mesh.is_terrain(face)) {
+                        tin.mesh.set_terrain(face, false);
+                        ++marked;
+                    }
+                });
     }
     if (terrain_ring) {
         std::erase_if(tin.traces, [&](const LineTrace& trace) { return trace.line == *terrain_ring; });
     }
     return marked;
+}
+
+std::vector<bool> find_water_faces(const Tin& tin, std::span<const Breakline> lines) {
+    if (std::none_of(lines.begin(), lines.end(),
+                     [](const Breakline& line) { return is_cleared_role(line.role); })) {
+        return {};
+    }
+    std::vector<bool> is_water(tin.mesh.slot_count());
+    AreaWalk(tin, lines, is_cleared_role)
+        .run([](const Polygons& polygons) { return !polygons.empty(); },
+             [&](FaceId face) { is_water[face.value] = tin.mesh.is_terrain(face); });
+    return is_water;
 }
 
 }  // namespace tinwright
