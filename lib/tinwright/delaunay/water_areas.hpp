@@ -27,6 +27,8 @@ class WaterAreas {
     WaterAreas& operator=(const WaterAreas&) = delete;
 
     [[nodiscard]] bool is_empty() const { return polygons_.empty(); }
+    /// Role and number (`Breakline::polygon`) of a polygon.
+    [[nodiscard]] std::pair<LineRole, std::uint32_t> polygon(std::uint32_t index) const { return polygons_[index]; }
     /// A polygon that has the key strictly inside: of several the first, as a number for `level`; keys on a
     /// polygon's ring are not inside it. Exact. O(sqrt n + k) in practice for k ring segments to the right.
     [[nodiscard]] std::optional<std::uint32_t> around(Key2 key) const { return find(twice(key)); }

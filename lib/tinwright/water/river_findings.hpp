@@ -1,0 +1,45 @@
+#ifndef TINWRIGHT_WATER_RIVER_FINDINGS_HPP
+#define TINWRIGHT_WATER_RIVER_FINDINGS_HPP
+
+#include <span>
+#include <vector>
+
+#include "tinwright/water/near_samples.hpp"
+#include "tinwright/water/water_finding.hpp"
+#include "tinwright/water/water_flow.hpp"
+#include "tinwright/water/water_network.hpp"
+
+/// What is wrong with rivers as they came. Private to the room of water.
+namespace tinwright {
+
+struct RiverFindingOptions {
+    double tolerance = 0;    ///< unit of z
+    double shore_width = 0;  ///< CRS units
+};
+
+/// RunsUphill and WrongDirection, by the elevations given or measured: `elevations`, one a node.
+std::vector<WaterFinding> find_rises(const WaterNetwork& network, const WaterFlow& flow,
+                                     std::span<const double> elevations, double tolerance);
+
+/// Loop and Braid.
+std::vector<WaterFinding> find_rings(const WaterNetwork& network, const WaterFlow& flow);
+
+/// DanglingReach: a river ends inside the terrain, farther than the shore's width from its border; without
+/// samples, within that of other water.
+std::vector<WaterFinding> find_dangling(const WaterNetwork& network, const WaterFlow& flow,
+                                        NearSamples& samples, const RiverFindingOptions& options);
+
+/// RiverThroughLake: where rivers with z of their own meet lakes, and how they differ. `levels`: one a node.
+std::vector<WaterFinding> find_passages(const WaterNetwork& network, std::span<const double> levels,
+                                        double tolerance);
+
+/// LakesOutOfOrder, by the falls. `levels`: those that lakes were given, one a node.
+std::vector<WaterFinding> find_disorder(const WaterNetwork& network, const WaterFlow& flow,
+                                        std::span<const double> levels, double tolerance);
+
+/// BanksNotLevel, one a section, and WaterOverlaps, one a pair.
+std::vector<WaterFinding> find_bank_faults(const WaterNetwork& network, double tolerance);
+
+}  // namespace tinwright
+
+#endif

@@ -1,0 +1,436 @@
+#include "tinwright/water/water_network.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <string>
+
+#include "tinwright/geometry/constructions.hpp"
+#include "tinwright/geometry/decimal.hpp"
+#include "tinwright/geometry/error.hpp"
+#include "tinwright/water/stations.hpp"
+
+namespace tinwright {
+
+namespace {
+
+/// Mean width of a ring's water, had it no islands: twice the area by the perimeter.
+double mean_width(const Breakline& ring) {
+    double area = 0;
+    double length = 0;
+    const Point3& origin = ring.points.front();
+    for (std::size_t i = 1; i < ring.points.size(); ++i) {
+        const Point3& p = ring.points[i - 1];
+        const Point3& q = ring.points[i];
+        area += (p.x - origin.x) * (q.y - origin.y) - (q.x - origin.x) * (p.y - origin.y);
+        length += std::hypot(q.x - p.x, q.y - p.y);
+    }
+    return length > 0 ? std::abs(area) / length : 0;
+}
+
+bool has_own_z(const Breakline& line) {
+    return std::any_of(line.points.begin(), line.points.end(),
+                       [](const Point3& p) { return std::isfinite(p.z); });
+}
+
+class NetworkMaker {
+  public:
+    NetworkMaker(std::span<const Breakline> lines, const NetworkOptions& options, WaterNetwork& network)
+        : lines_(lines), options_(options), out_(network) {}
+
+    void make() {
+        prepare();
+        out_.noded =
+            node_lines(out_.prepared, out_.lattice, {.crossing_z = CrossingPolicy::Min, .keep_chains = true});
+        const std::size_t count = out_.noded.keys.size();
+        out_.node_of.assign(count, kNoNode);
+        out_.stand_of.resize(count);
+        out_.is_between_banks.assign(count, false);
+        out_.is_in_lake.assign(count, false);
+        gather_polygons();
+        locate_vertices();
+        make_lake_nodes();
+        make_sections();
+        make_river_nodes();
+        find_river_runs();
+        find_bank_runs();
+    }
+
+  private:
+    void prepare() {
+        std::map<std::uint32_t, double> spacing_of;  // of banks, by polygon
+        for (const Breakline& line : lines_) {
+            if (line.role == LineRole::Bank) {
+                double& spacing = spacing_of[line.polygon];
+                spacing = std::max(spacing, mean_width(line) / 2);
+            }
+        }
+        for (std::uint32_t i = 0; i < lines_.size(); ++i) {
+            const Breakline& line = lines_[i];
+            if (!is_water_role(line.role) || line.role == LineRole::Section) {
+                continue;
+            }
+            Breakline prepared = line;
+            if (line.role == LineRole::Lake) {
+                for (Point3& point : prepared.points) {
+                    point.z = kDraped;  // the level is decided for the whole lake
+                }
+            } else if (line.role == LineRole::Bank) {
+                const double spacing = options_.bank_spacing.value_or(spacing_of[line.polygon]);
+                if (spacing > 0) {
+                    prepared.points = add_stations(line.points, spacing, out_.lattice);
+                }
+            } else if (!has_own_z(line) && options_.river_spacing > 0) {
+                prepared.points = add_stations(line.points, options_.river_spacing, out_.lattice);
+            }
+            out_.lines.push_back(i);
+            out_.prepared.push_back(std::move(prepared));
+        }
+    }
+
+    void gather_polygons() {
+        std::map<std::pair<LineRole, std::uint32_t>, std::size_t> place;
+        std::vector<WaterPolygon> polygons;
+        for (std::uint32_t line = 0; line < out_.prepared.size(); ++line) {
+            const Breakline& ring = out_.prepared[line];
+            if (!is_cleared_role(ring.role)) {
+                continue;
+            }
+            const auto [entry, is_new] = place.try_emplace({ring.role, ring.polygon}, polygons.size());
+            if (is_new) {
+                polygons.push_back({ring.role, ring.polygon, {}});
+            }
+            polygons[entry->second].rings.push_back(line);
+        }
+        for (WaterPolygon& polygon : polygons) {
+            if (polygon.role == LineRole::Lake) {
+                lake_by_number_[polygon.number] = static_cast<std::uint32_t>(out_.lakes.size());
+                out_.lakes.push_back(std::move(polygon));
+            } else {
+                out_.banks.push_back({std::move(polygon), {}, 0, {}});
+            }
+        }
+    }
+
+    /// Which vertices are inside lakes and banks.
+    void locate_vertices() {
+        const WaterAreas areas(out_.noded, out_.prepared);
+        lake_around_.assign(out_.noded.keys.size(), kNoNode);
+        for (std::uint32_t v = 0; v < out_.noded.keys.size(); ++v) {
+            if (const auto area = areas.around(out_.key(v))) {
+                const auto [role, number] = areas.polygon(*area);
+                if (role == LineRole::Lake) {
+                    lake_around_[v] = lake_by_number_.at(number);
+                    out_.is_in_lake[v] = true;
+                } else {
+                    out_.is_between_banks[v] = true;
+                }
+            }
+        }
+        for (const NodedPiece& piece : out_.noded.pieces) {
+            const bool is_river = out_.prepared[piece.line].role == LineRole::River;
+            is_piece_in_water_.push_back(is_river && areas.around(piece).has_value());
+        }
+    }
+
+    /// Lakes that share a vertex, or one of which reaches into the other, are one node.
+    void make_lake_nodes() {
+        std::vector<std::uint32_t> parent(out_.lakes.size());
+        std::iota(parent.begin(), parent.end(), 0U);
+        const auto find = [&parent](std::uint32_t lake) {
+            while (parent[lake] != lake) {
+                lake = parent[lake] = parent[parent[lake]];
+            }
+            return lake;
+        };
+        const auto join = [&](std::uint32_t a, std::uint32_t b) {
+            const auto [low, high] = std::minmax(find(a), find(b));
+            parent[high] = low;
+        };
+        std::vector<std::uint32_t> lake_at(lake_around_);
+        for (std::uint32_t lake = 0; lake < out_.lakes.size(); ++lake) {
+            for (const std::uint32_t ring : out_.lakes[lake].rings) {
+                for (const std::uint32_t v : out_.chain(ring)) {
+                    if (lake_at[v] != kNoNode) {
+                        join(lake, lake_at[v]);
+                    } else {
+                        lake_at[v] = lake;
+                    }
+                }
+            }
+        }
+        out_.lake_node.resize(out_.lakes.size());
+        for (std::uint32_t lake = 0; lake < out_.lakes.size(); ++lake) {
+            const std::uint32_t first = find(lake);
+            out_.lake_node[lake] =
+                first == lake ? static_cast<std::uint32_t>(out_.node_count++) : out_.lake_node[first];
+        }
+        for (std::uint32_t v = 0; v < lake_at.size(); ++v) {
+            if (lake_at[v] != kNoNode) {
+                out_.node_of[v] = out_.lake_node[lake_at[v]];
+            }
+        }
+        out_.first_section = static_cast<std::uint32_t>(out_.node_count);
+    }
+
+    /// The vertices of a ring, each once.
+    std::vector<std::uint32_t> open_ring(std::uint32_t line) const {
+        const auto chain = out_.chain(line);
+        std::vector<std::uint32_t> ring(chain.begin(), chain.end());
+        if (ring.size() > 1 && ring.front() == ring.back()) {
+            ring.pop_back();
+        }
+        return ring;
+    }
+
+    void make_sections() {
+        std::vector<std::uint32_t> bank_at(out_.noded.keys.size(), kNoNode);
+        for (std::uint32_t b = 0; b < out_.banks.size(); ++b) {
+            BankWater& bank = out_.banks[b];
+            std::vector<std::vector<Key2>> keys;
+            for (const std::uint32_t line : bank.polygon.rings) {
+                bank.rings.push_back(open_ring(line));
+                keys.emplace_back();
+                for (const std::uint32_t v : bank.rings.back()) {
+                    keys.back().push_back(out_.key(v));
+                }
+            }
+            require_simple(bank);
+            bank.network = make_bank_network(keys);
+            bank.first_node = static_cast<std::uint32_t>(out_.node_count);
+            out_.node_count += bank.network.sections.size();
+            for (std::size_t r = 0; r < bank.rings.size(); ++r) {
+                for (std::size_t i = 0; i < bank.rings[r].size(); ++i) {
+                    const BankPlace& place = bank.network.places[r][i];
+                    stand(bank.rings[r][i],
+                          {bank.first_node + place.a, bank.first_node + place.b, place.part});
+                }
+            }
+        }
+        out_.first_vertex = static_cast<std::uint32_t>(out_.node_count);
+    }
+
+    void require_simple(const BankWater& bank) const {
+        std::vector<std::uint32_t> all;
+        for (const std::vector<std::uint32_t>& ring : bank.rings) {
+            all.insert(all.end(), ring.begin(), ring.end());
+        }
+        std::sort(all.begin(), all.end());
+        const auto twice = std::adjacent_find(all.begin(), all.end());
+        if (twice != all.end()) {
+            throw BreaklineError("banks touch or cross themselves at " +
+                                     location_text(out_.lattice.position(out_.key(*twice))) +
+                                     "; put the polygon right, with \"tinwright check --repair\" for example",
+                                 {out_.lines[bank.polygon.rings.front()]});
+        }
+    }
+
+    /// A vertex that is on other banks already, or on a lake, ties the levels there together.
+    void stand(std::uint32_t v, const BankStand& stand) {
+        const auto tie = [&](std::uint32_t p, std::uint32_t q) {
+            if (p != q) {
+                out_.equal.emplace_back(p, q);
+            }
+        };
+        BankStand& there = out_.stand_of[v];
+        if (out_.node_of[v] != kNoNode) {
+            tie(out_.node_of[v], stand.nearest());
+        }
+        if (there.a == kNoNode) {
+            there = stand;
+        } else {
+            tie(there.nearest(), stand.nearest());
+        }
+    }
+
+    void make_river_nodes() {
+        for (std::uint32_t line = 0; line < out_.prepared.size(); ++line) {
+            if (out_.prepared[line].role != LineRole::River) {
+                continue;
+            }
+            for (const std::uint32_t v : out_.chain(line)) {
+                if (out_.node_of[v] == kNoNode && out_.stand_of[v].a == kNoNode &&
+                    !out_.is_between_banks[v]) {
+                    out_.node_of[v] = static_cast<std::uint32_t>(out_.node_count++);
+                    out_.vertex_of.push_back(v);
+                }
+            }
+        }
+    }
+
+    [[nodiscard]] bool is_in_water(std::uint32_t a, std::uint32_t b, std::uint32_t line) const {
+        const NodedPiece sought{std::min(a, b), std::max(a, b), line, 0};
+        const auto place = std::lower_bound(out_.noded.pieces.begin(), out_.noded.pieces.end(), sought);
+        return is_piece_in_water_[static_cast<std::size_t>(place - out_.noded.pieces.begin())];
+    }
+
+    /// How many different ways lead from each vertex along rivers in the open.
+    std::vector<std::uint32_t> count_ways() const {
+        std::vector<std::uint32_t> ways(out_.noded.keys.size());
+        const NodedPiece* last = nullptr;
+        for (std::size_t i = 0; i < out_.noded.pieces.size(); ++i) {
+            const NodedPiece& piece = out_.noded.pieces[i];
+            if (out_.prepared[piece.line].role != LineRole::River || is_piece_in_water_[i]) {
+                continue;
+            }
+            if (last == nullptr || last->a != piece.a || last->b != piece.b) {
+                ++ways[piece.a];
+                ++ways[piece.b];
+            }
+            last = &piece;
+        }
+        return ways;
+    }
+
+    void find_river_runs() {
+        const std::vector<std::uint32_t> ways = count_ways();
+        for (std::uint32_t line = 0; line < out_.prepared.size(); ++line) {
+            if (out_.prepared[line].role != LineRole::River) {
+                continue;
+            }
+            WaterRun run;
+            run.line = line;
+            const auto finish = [&] {
+                if (run.stops.size() > 1) {
+                    run.from = out_.nearest_node(run.stops.front());
+                    run.to = out_.nearest_node(run.stops.back());
+                    out_.runs.push_back(run);
+                }
+                run.stops.clear();
+            };
+            const auto chain = out_.chain(line);
+            double chainage = 0;
+            for (std::size_t i = 0; i + 1 < chain.size();
+                 chainage += out_.distance(chain[i], chain[i + 1]), ++i) {
+                const std::uint32_t v = chain[i];
+                const bool is_own = out_.node_of[v] != kNoNode && out_.node_of[v] >= out_.first_vertex;
+                if (!is_own || ways[v] != 2) {
+                    finish();
+                }
+                if (is_in_water(v, chain[i + 1], line)) {
+                    finish();
+                    continue;
+                }
+                if (run.stops.empty()) {
+                    run.stops.push_back(v);
+                    run.chainage = chainage;
+                }
+                run.stops.push_back(chain[i + 1]);
+            }
+            finish();
+        }
+    }
+
+    /// Sections in a row, up to where more or fewer than two ways lead on or rivers come in.
+    void find_bank_runs() {
+        std::vector<bool> is_stop(out_.node_count);
+        for (const WaterRun& run : out_.runs) {
+            is_stop[run.from] = is_stop[run.to] = true;
+        }
+        for (const auto& [a, b] : out_.equal) {
+            is_stop[a] = is_stop[b] = true;
+        }
+        for (std::uint32_t b = 0; b < out_.banks.size(); ++b) {
+            BankRuns(*this, b, is_stop).find();
+        }
+    }
+
+    /// The runs of one polygon.
+    class BankRuns {
+      public:
+        BankRuns(NetworkMaker& maker, std::uint32_t bank, const std::vector<bool>& is_stop)
+            : out_(maker.out_),
+              bank_(bank),
+              links_(out_.banks[bank].network.links),
+              is_stop_(is_stop),
+              of_section_(out_.banks[bank].network.sections.size()),
+              is_done_(links_.size()) {
+            for (std::uint32_t l = 0; l < links_.size(); ++l) {
+                of_section_[links_[l].a].push_back(l);
+                of_section_[links_[l].b].push_back(l);
+            }
+        }
+
+        void find() {
+            for (std::uint32_t s = 0; s < of_section_.size(); ++s) {
+                if (ends_run(s)) {
+                    for (const std::uint32_t link : of_section_[s]) {
+                        follow(s, link);
+                    }
+                }
+            }
+            for (std::uint32_t link = 0; link < links_.size(); ++link) {
+                follow(links_[link].a, link);  // what is left goes round
+            }
+        }
+
+      private:
+        [[nodiscard]] bool ends_run(std::uint32_t section) const {
+            return of_section_[section].size() != 2 || is_stop_[out_.banks[bank_].first_node + section];
+        }
+
+        void follow(std::uint32_t section, std::uint32_t link) {
+            if (is_done_[link]) {
+                return;
+            }
+            const std::uint32_t first_node = out_.banks[bank_].first_node;
+            WaterRun run;
+            run.line = out_.banks[bank_].polygon.rings.front();
+            run.is_between_banks = true;
+            run.bank = bank_;
+            run.stops.push_back(first_node + section);
+            for (;;) {
+                is_done_[link] = true;
+                const bool is_forward = links_[link].a == section;
+                run.paths.push_back(links_[link].path);
+                if (!is_forward) {
+                    std::reverse(run.paths.back().begin(), run.paths.back().end());
+                }
+                section = is_forward ? links_[link].b : links_[link].a;
+                run.stops.push_back(first_node + section);
+                if (ends_run(section)) {
+                    break;
+                }
+                const std::vector<std::uint32_t>& ways = of_section_[section];
+                link = ways[0] == link ? ways[1] : ways[0];
+                if (is_done_[link]) {
+                    break;
+                }
+            }
+            run.from = run.stops.front();
+            run.to = run.stops.back();
+            out_.runs.push_back(std::move(run));
+        }
+
+        WaterNetwork& out_;
+        std::uint32_t bank_;
+        const std::vector<BankLink>& links_;
+        const std::vector<bool>& is_stop_;
+        std::vector<std::vector<std::uint32_t>> of_section_;
+        std::vector<bool> is_done_;
+    };
+
+    std::span<const Breakline> lines_;
+    const NetworkOptions& options_;
+    WaterNetwork& out_;
+    std::map<std::uint32_t, std::uint32_t> lake_by_number_;
+    std::vector<std::uint32_t> lake_around_;  // of each vertex: a lake that it is strictly inside of
+    std::vector<bool> is_piece_in_water_;     // of each piece: of a river inside a lake or between banks
+};
+
+}  // namespace
+
+double WaterNetwork::distance(std::uint32_t a, std::uint32_t b) const {
+    return std::sqrt(squared_distance(key(a), key(b))) * lattice.quantum();
+}
+
+WaterNetwork make_water_network(std::span<const Breakline> lines, const Lattice& lattice,
+                                const NetworkOptions& options) {
+    WaterNetwork network;
+    network.lattice = lattice;
+    NetworkMaker(lines, options, network).make();
+    return network;
+}
+
+}  // namespace tinwright
