@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <optional>
 #include <set>
 #include <utility>
 
@@ -70,24 +69,25 @@ class RiseFinder {
             low_ = z;
             low_at_ = i;
             is_first_ = false;
-        } else if (z - low_ > tolerance_ && (!top_ || z > top_z_)) {
+        } else if (z - low_ > tolerance_ && (!has_top_ || z > top_z_)) {
+            has_top_ = true;
             top_ = i;
             top_z_ = z;
         }
     }
     void finish() {
-        if (top_) {
+        if (has_top_) {
             WaterFinding finding =
-                make_finding(Kind::RunsUphill, network_, course_.line, course_.vertices[*top_]);
+                make_finding(Kind::RunsUphill, network_, course_.line, course_.vertices[top_]);
             finding.z = top_z_;
             finding.other_z = low_;
             finding.amount = top_z_ - low_;
-            finding.chainage = course_.chainages[*top_];
-            finding.length = std::abs(course_.chainages[*top_] - course_.chainages[low_at_]);
+            finding.chainage = course_.chainages[top_];
+            finding.length = std::abs(course_.chainages[top_] - course_.chainages[low_at_]);
             finding.is_repaired = true;
             findings_.push_back(finding);
         }
-        top_.reset();
+        has_top_ = false;
     }
 
   private:
@@ -98,7 +98,8 @@ class RiseFinder {
     bool is_first_ = true;
     double low_ = 0;
     std::size_t low_at_ = 0;
-    std::optional<std::size_t> top_;
+    bool has_top_ = false;
+    std::size_t top_ = 0;
     double top_z_ = 0;
 };
 
@@ -318,17 +319,10 @@ std::vector<WaterFinding> find_passages(const WaterNetwork& network, std::span<c
     return findings;
 }
 
-std::vector<WaterFinding> find_disorder(const WaterNetwork& network, const WaterFlow& flow,
-                                        std::span<const double> levels, double tolerance) {
-    std::vector<WaterFinding> findings;
-    if (network.first_section < 2) {
-        return findings;
-    }
-    const std::vector<std::uint32_t> vertex = vertices_of_nodes(network);
-    const std::vector<std::uint32_t> line = lines_of_nodes(network);
+std::vector<Fall> find_lake_falls(const WaterNetwork& network, const WaterFlow& flow) {
+    std::vector<Fall> falls;
     const auto lower_than = [](const Fall& fall, std::uint32_t node) { return fall.upper < node; };
-    for (std::uint32_t lake = 0; lake < network.first_section; ++lake) {
-        // Downstream to the next lakes.
+    for (std::uint32_t lake = 0; lake < network.first_section && network.first_section > 1; ++lake) {
         std::vector<std::uint32_t> stack = {flow.first_of[lake]};
         std::set<std::uint32_t> seen(stack.begin(), stack.end());
         while (!stack.empty()) {
@@ -341,16 +335,33 @@ std::vector<WaterFinding> find_disorder(const WaterNetwork& network, const Water
                 }
                 if (fall->lower >= network.first_section) {
                     stack.push_back(fall->lower);
-                } else if (levels[fall->lower] - levels[lake] > tolerance) {
-                    WaterFinding finding =
-                        make_finding(Kind::LakesOutOfOrder, network, line[lake], vertex[fall->lower]);
-                    finding.other_line = network.lines[line[fall->lower]];
-                    finding.z = levels[lake];
-                    finding.other_z = levels[fall->lower];
-                    finding.amount = levels[fall->lower] - levels[lake];
-                    findings.push_back(finding);
+                } else {
+                    falls.push_back({lake, fall->lower});
                 }
             }
+        }
+    }
+    return falls;
+}
+
+std::vector<WaterFinding> find_disorder(const WaterNetwork& network, const WaterFlow& flow,
+                                        std::span<const double> levels, double tolerance) {
+    std::vector<WaterFinding> findings;
+    const std::vector<Fall> falls = find_lake_falls(network, flow);
+    if (falls.empty()) {
+        return findings;
+    }
+    const std::vector<std::uint32_t> vertex = vertices_of_nodes(network);
+    const std::vector<std::uint32_t> line = lines_of_nodes(network);
+    for (const Fall& fall : falls) {
+        if (levels[fall.lower] - levels[fall.upper] > tolerance) {
+            WaterFinding finding =
+                make_finding(Kind::LakesOutOfOrder, network, line[fall.upper], vertex[fall.lower]);
+            finding.other_line = network.lines[line[fall.lower]];
+            finding.z = levels[fall.upper];
+            finding.other_z = levels[fall.lower];
+            finding.amount = levels[fall.lower] - levels[fall.upper];
+            findings.push_back(finding);
         }
     }
     return findings;

@@ -33,6 +33,10 @@ std::vector<WaterFinding> find_dangling(const WaterNetwork& network, const Water
 std::vector<WaterFinding> find_passages(const WaterNetwork& network, std::span<const double> levels,
                                         double tolerance);
 
+/// From each lake to the lakes that water from it comes to next: nodes. O(lakes times the falls between
+/// them).
+std::vector<Fall> find_lake_falls(const WaterNetwork& network, const WaterFlow& flow);
+
 /// LakesOutOfOrder, by the falls. `levels`: those that lakes were given, one a node.
 std::vector<WaterFinding> find_disorder(const WaterNetwork& network, const WaterFlow& flow,
                                         std::span<const double> levels, double tolerance);

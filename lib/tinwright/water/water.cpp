@@ -64,7 +64,7 @@ double choose_shore_width(std::span<const Point3> samples, std::span<const Break
     double width = 0;
     if (samples.size() > 2) {
         for (const Point3& sample : samples) {
-            box.add({sample.x, sample.y});
+            box.add(sample.x, sample.y);
         }
         const double area = (box.x_max - box.x_min) * (box.y_max - box.y_min);
         width = 2 * std::sqrt(area / static_cast<double>(samples.size()));
@@ -72,7 +72,7 @@ double choose_shore_width(std::span<const Point3> samples, std::span<const Break
     if (!(width > 0)) {
         for (const Breakline& line : lines) {
             for (const Point3& point : line.points) {
-                box.add({point.x, point.y});
+                box.add(point.x, point.y);
             }
         }
         width = std::max(box.x_max - box.x_min, box.y_max - box.y_min) / 1000;
@@ -109,6 +109,8 @@ class Leveler {
         report_progress(options_.progress, 0.6);
         flow_ = find_flow(network_, elevations_, options_.flow);
         find_faults();
+        order_lakes();
+        look_at_shores();
         report_progress(options_.progress, 0.7);
         fit();
         report_progress(options_.progress, 0.9);
@@ -157,8 +159,14 @@ class Leveler {
         for (std::size_t i = 0; i < measured.size(); ++i) {
             LakeLevel& lake = measured[i].lake;
             lake.level = lake_levels_[network_.lake_node[i]];
-            look_at_shore(measured[i]);
             out_.report.lakes.push_back(lake);
+            beside_.push_back(std::move(measured[i].beside));
+        }
+    }
+
+    void look_at_shores() {
+        for (std::size_t i = 0; i < beside_.size(); ++i) {
+            look_at_shore(out_.report.lakes[i], beside_[i]);
         }
         std::sort(out_.lifted.begin(), out_.lifted.end());
         // Beside two lakes: the higher one counts.
@@ -232,9 +240,8 @@ class Leveler {
         return *std::min_element(levels.begin(), levels.end());
     }
 
-    void look_at_shore(MeasuredLake& measured) {
-        LakeLevel& lake = measured.lake;
-        for (const std::uint32_t sample : measured.beside) {
+    void look_at_shore(LakeLevel& lake, const std::vector<std::uint32_t>& beside) {
+        for (const std::uint32_t sample : beside) {
             const double z = samples_.z(sample);
             if (!(z < lake.level)) {
                 continue;
@@ -268,6 +275,35 @@ class Leveler {
             for (const WaterFinding& finding : out_.report.findings) {
                 out_.report.rivers_turned += finding.kind == Kind::WrongDirection ? 1U : 0U;
             }
+        }
+    }
+
+    /// Lakes whose levels were measured come to be in the order of flow; those with a level of their own
+    /// stand.
+    void order_lakes() {
+        const std::vector<Fall> falls = find_lake_falls(network_, flow_);
+        const bool are_in_order = std::all_of(falls.begin(), falls.end(), [this](const Fall& fall) {
+            return elevations_[fall.upper] >= elevations_[fall.lower];
+        });
+        if (are_in_order) {
+            return;
+        }
+        std::vector<LevelNode> nodes(network_.first_section);
+        for (std::uint32_t node = 0; node < nodes.size(); ++node) {
+            nodes[node] = {elevations_[node], 0};
+        }
+        for (std::size_t i = 0; i < out_.report.lakes.size(); ++i) {
+            const LakeLevel& lake = out_.report.lakes[i];
+            LevelNode& node = nodes[network_.lake_node[i]];
+            node.weight += lake.shore_length;
+            if (lake.is_own) {
+                node.lowest = node.highest = node.target;
+            }
+        }
+        const LevelFit fitted = fit_levels(nodes, falls, RiverFit::Isotonic);
+        std::copy(fitted.levels.begin(), fitted.levels.end(), elevations_.begin());
+        for (std::size_t i = 0; i < out_.report.lakes.size(); ++i) {
+            out_.report.lakes[i].level = elevations_[network_.lake_node[i]];
         }
     }
 
@@ -453,8 +489,9 @@ class Leveler {
     Lattice lattice_;
     NearSamples samples_;
     WaterNetwork network_;
-    std::vector<double> lake_levels_;  // of the nodes that are lakes
-    std::vector<double> elevations_;   // of all nodes: given or measured
+    std::vector<double> lake_levels_;                 // of the nodes that are lakes
+    std::vector<std::vector<std::uint32_t>> beside_;  // of each lake: samples
+    std::vector<double> elevations_;                  // of all nodes: given or measured
     WaterFlow flow_;
     std::vector<double> levels_;  // of all nodes
     std::vector<double> vertex_levels_;
