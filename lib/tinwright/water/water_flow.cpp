@@ -21,8 +21,9 @@ class NodeSets {
         return node;
     }
     void join(std::uint32_t a, std::uint32_t b) {
-        const auto [low, high] = std::minmax(find(a), find(b));
-        parent_[high] = low;
+        const std::uint32_t first = find(a);
+        const std::uint32_t second = find(b);
+        parent_[std::max(first, second)] = std::min(first, second);
     }
 
   private:

@@ -145,8 +145,9 @@ class NetworkMaker {
             return lake;
         };
         const auto join = [&](std::uint32_t a, std::uint32_t b) {
-            const auto [low, high] = std::minmax(find(a), find(b));
-            parent[high] = low;
+            const std::uint32_t first = find(a);
+            const std::uint32_t second = find(b);
+            parent[std::max(first, second)] = std::min(first, second);
         };
         std::vector<std::uint32_t> lake_at(lake_around_);
         for (std::uint32_t lake = 0; lake < out_.lakes.size(); ++lake) {
