@@ -41,8 +41,10 @@ class NetworkMaker {
 
     void make() {
         prepare();
-        out_.noded =
-            node_lines(out_.prepared, out_.lattice, {.crossing_z = CrossingPolicy::Min, .keep_chains = true});
+        NodingOptions noding;
+        noding.crossing_z = CrossingPolicy::Min;
+        noding.keep_chains = true;
+        out_.noded = node_lines(out_.prepared, out_.lattice, noding);
         const std::size_t count = out_.noded.keys.size();
         out_.node_of.assign(count, kNoNode);
         out_.stand_of.resize(count);
