@@ -34,7 +34,8 @@ struct FlatFacesReport {
 /// region closed on itself, a top or a bottom, goes on as the faces around it rise, up to half the
 /// difference of neighbouring contours. Inserted vertices have `Tin::kInserted` as their sample. Vertices are
 /// renumbered along the curve as everywhere. No constrained edge changes. Deterministic. O(n log n).
-FlatFacesReport remove_flat_faces(Tin& tin, FlatFaces how, const std::vector<bool>& is_water = {});
+FlatFacesReport remove_flat_faces(Tin& tin, FlatFaces how, const std::vector<bool>& is_water = {},
+                                  bool keeps_delaunay = false);
 
 /// Number of flat terrain faces that are not water. O(slots).
 std::size_t count_flat_faces(const Tin& tin, const std::vector<bool>& is_water = {});

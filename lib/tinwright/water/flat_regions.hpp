@@ -1,0 +1,57 @@
+#ifndef TINWRIGHT_WATER_FLAT_REGIONS_HPP
+#define TINWRIGHT_WATER_FLAT_REGIONS_HPP
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "tinwright/mesh/tin.hpp"
+
+/// Private to `remove_flat_faces`: which faces are flat without reason, and what their edges are.
+namespace tinwright::internal {
+
+/// Of an edge of a flat face that is to be treated.
+enum class FlatEdge : std::uint8_t {
+    Wall,    ///< constrained, taken for a piece of a contour, or at what stays as it is
+    Inner,   ///< to another such face
+    Opening  ///< to a face that is not flat
+};
+
+/// Flat faces that contours made, and their edges. Answers hold while edges are flipped and split, as long
+/// as the edges of flat faces that are walls stay.
+///
+/// A contour that came in as a line is constrained. One that came in as samples is guessed by its shape: an
+/// edge whose opposite angles are together less than a right angle is a piece of a curve through the samples
+/// [gold1999]. Edges between vertices of lines are never guessed. A vertex on no line that has flat faces
+/// only, all around, says that the terrain itself is flat: its faces are not treated.
+class FlatRegions {
+  public:
+    /// `tin`: must outlive this object. `is_water`: by face slot; slots beyond its end are none. O(n log n).
+    FlatRegions(const Tin& tin, const std::vector<bool>& is_water);
+
+    /// Whether a face is flat and to be treated.
+    [[nodiscard]] bool is_treated(FaceId f) const;
+    /// `h`: of a face that is treated.
+    [[nodiscard]] FlatEdge kind(HalfEdgeId h) const;
+    /// Terrain that is not water.
+    [[nodiscard]] bool is_dry(FaceId f) const {
+        return tin_.mesh.is_terrain(f) && (f.value >= is_water_.size() || !is_water_[f.value]);
+    }
+
+  private:
+    void find_measured();
+    void find_contour_pieces();
+
+    const Tin& tin_;
+    const std::vector<bool>& is_water_;
+    std::vector<bool> is_on_line_;                               // by vertex
+    std::vector<bool> is_measured_;                              // by vertex: flat all around
+    std::vector<std::pair<VertexId, VertexId>> contour_pieces_;  // that are not constrained; ascending
+};
+
+/// Whether the three vertices of a face that is no ghost have one elevation.
+bool is_flat(const Tin& tin, FaceId f);
+
+}  // namespace tinwright::internal
+
+#endif
