@@ -56,6 +56,9 @@ class Interpolator {
 
     /// One for each thread; may be called from several threads at a time.
     [[nodiscard]] virtual std::unique_ptr<SurfaceReader> make_reader() const = 0;
+    /// Whether the surface is the face itself there by decree (`keep_facets`), whatever the method does next
+    /// to it: the side that the face's edges are best read from.
+    [[nodiscard]] virtual bool is_facet(FaceId /*face*/) const { return false; }
 };
 
 }  // namespace tinwright

@@ -31,6 +31,7 @@ class Tracer {
   public:
     Tracer(const Tin& tin, const Interpolator& surface, std::span<const double> levels, double tolerance)
         : tin_(tin),
+          surface_(surface),
           levels_(levels),
           tolerance_(tolerance),
           lattice_(tin),
@@ -72,6 +73,7 @@ class Tracer {
     void number_by_position();
 
     const Tin& tin_;
+    const Interpolator& surface_;
     std::span<const double> levels_;
     double tolerance_;
     QueryLattice lattice_;
@@ -191,6 +193,10 @@ bool Tracer::can_split(HalfEdgeId h, Key2 at) const {
 }
 
 FaceId Tracer::canonical_host(FaceId a, FaceId b) const {
+    // The shore of level water at a level would else be above it here and below it there, by a rounding.
+    if (surface_.is_facet(a) != surface_.is_facet(b)) {
+        return surface_.is_facet(a) ? a : b;
+    }
     const auto corners = [this](FaceId f) {
         std::array<VertexId, 3> v = tin_.mesh.face(f).vertex;
         std::sort(v.begin(), v.end());
