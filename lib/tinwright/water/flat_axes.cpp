@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "tinwright/geometry/constructions.hpp"
+#include "tinwright/geometry/predicates.hpp"
 
 namespace tinwright::internal {
 
@@ -115,6 +116,7 @@ class AxisFinder {
         const std::uint32_t center = count == 0 || count == 3 ? add_center(face.face) : AxisNode::kNone;
         if (count == 1) {
             AxisNode& node = axes_.nodes[passages[0]];
+            node.is_single = node.outlet != kGhostVertex && can_be_swapped(node);
             for (const VertexId v : tin_.mesh.face(face.face).vertex) {
                 if (v != node.a && v != node.b) {
                     node.end = std::max(node.end, distance(node.x, node.y, key(v)));
@@ -127,6 +129,16 @@ class AxisFinder {
             connect(center, passages[i]);
         }
         look_at_walls(face, count == 0 ? center : passages[0]);
+    }
+
+    /// Whether the quadrilateral of a node's edge is strictly convex.
+    [[nodiscard]] bool can_be_swapped(const AxisNode& node) const {
+        const auto& corners = tin_.mesh.face(node.face).vertex;
+        const VertexId c = *std::find_if(corners.begin(), corners.end(),
+                                         [&](VertexId v) { return v != node.a && v != node.b; });
+        const Key2 from = key(c);
+        const Key2 to = key(node.outlet);
+        return orient2d(from, to, key(node.a)) * orient2d(from, to, key(node.b)) < 0;
     }
 
     void connect(std::uint32_t p, std::uint32_t q) {
@@ -189,6 +201,14 @@ class AxisFinder {
 };
 
 }  // namespace
+
+void leave_out_single_faces(const FlatAxes& axes, std::vector<double>& z) {
+    for (std::size_t n = 0; n < z.size(); ++n) {
+        if (axes.nodes[n].is_single) {
+            z[n] = std::numeric_limits<double>::quiet_NaN();
+        }
+    }
+}
 
 FlatAxes find_flat_axes(const Tin& tin, const FlatRegions& regions) {
     return AxisFinder(tin, regions).find();

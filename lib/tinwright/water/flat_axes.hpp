@@ -21,8 +21,9 @@ struct AxisNode {
     FaceId face{};                   ///< a flat face that it belongs to
     double x = 0;
     double y = 0;
-    double half_width = 0;  ///< distance of the nearest wall that was looked at
-    double end = 0;         ///< distance of the farthest dead end in a face of it
+    bool is_single = false;  ///< the only place in the only face of its region
+    double half_width = 0;   ///< distance of the nearest wall that was looked at
+    double end = 0;          ///< distance of the farthest dead end in a face of it
     /// Of the walls in its faces, each wall counted once, those with dry terrain behind that is not flat:
     /// sums of length times the fall to the vertex behind, of the same with falls made positive, and of twice
     /// the areas of the faces behind.
@@ -58,6 +59,9 @@ FlatAxes find_flat_axes(const Tin& tin, const FlatRegions& regions);
 /// faces behind it on average, less and less so, and never as much as half the mean difference to the
 /// vertices behind; up if the terrain behind the walls is lower, by length, else down. O(n log n).
 std::vector<double> find_axis_elevations(const Tin& tin, const FlatAxes& axes);
+
+/// Forgets the elevations of those that a swap will do for: way out and region are one face.
+void leave_out_single_faces(const FlatAxes& axes, std::vector<double>& z);
 
 }  // namespace tinwright::internal
 

@@ -14,19 +14,18 @@ FlatFacesReport remove_flat_faces(Tin& tin, FlatFaces how, const std::vector<boo
     const auto start = std::chrono::steady_clock::now();
     FlatFacesReport report;
     report.before = count_flat_faces(tin, is_water);
-    if (report.before > 0 && how != FlatFaces::Keep) {
+    if (report.before > 0 && how == FlatFaces::Insert) {
         const internal::FlatRegions regions(tin, is_water);
+        const internal::FlatAxes axes = internal::find_flat_axes(tin, regions);
+        std::vector<double> z = internal::find_axis_elevations(tin, axes);
         if (!keeps_delaunay) {
-            report.swapped = internal::swap_flat_edges(tin, regions);
+            internal::leave_out_single_faces(axes, z);
         }
-        if (how == FlatFaces::Insert) {
-            const internal::FlatAxes axes = internal::find_flat_axes(tin, regions);
-            const std::vector<double> z = internal::find_axis_elevations(tin, axes);
-            report.inserted = internal::insert_axis_points(tin, axes, z);
-        }
-        if (report.inserted > 0 && keeps_delaunay) {
-            internal::restore_delaunay(tin);
-        }
+        report.inserted = internal::insert_axis_points(tin, axes, z);
+        internal::restore_delaunay(tin);
+    }
+    if (report.before > 0 && how != FlatFaces::Keep && !keeps_delaunay) {
+        report.swapped = internal::swap_flat_edges(tin, internal::FlatRegions(tin, is_water));
     }
     report.after = count_flat_faces(tin, is_water);
     report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -1,6 +1,7 @@
 #include "tinwright/water/flat_regions.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "tinwright/geometry/constructions.hpp"
 
@@ -19,6 +20,10 @@ bool is_short_for_its_faces(const Tin& tin, HalfEdgeId h) {
     const double cos_c = inner_product(a, c, b);
     const double cos_d = inner_product(a, d, b);
     return cos_c > 0 && cos_d > 0 && cos_c * cos_d > doubled_area(a, b, c) * doubled_area(b, a, d);
+}
+
+std::pair<VertexId, VertexId> ends_of(const TriangleMesh& mesh, HalfEdgeId h) {
+    return std::minmax(mesh.origin(h), mesh.destination(h));
 }
 
 }  // namespace
@@ -40,21 +45,28 @@ FlatRegions::FlatRegions(const Tin& tin, const std::vector<bool>& is_water)
 
 void FlatRegions::find_measured() {
     const TriangleMesh& mesh = tin_.mesh;
+    constexpr unsigned char kSloping = 0xFF;
+    std::vector<unsigned char> pieces(tin_.vertex_count());  // of contours, as they seem, at each vertex
     for (std::uint32_t f = 0; f < mesh.slot_count(); ++f) {
-        if (is_dry({f}) && is_flat(tin_, {f})) {
-            for (const VertexId v : mesh.face({f}).vertex) {
-                is_measured_[v.value] = !is_on_line_[v.value];
+        const bool is_level = is_dry({f}) && is_flat(tin_, {f});
+        for (unsigned corner = 0; corner < 3; ++corner) {
+            const VertexId v = mesh.vertex({f}, corner);
+            if (v == kGhostVertex || pieces[v.value] == kSloping) {
+                continue;
+            }
+            if (!is_level || is_on_line_[v.value]) {
+                pieces[v.value] = kSloping;
+                continue;
+            }
+            is_measured_[v.value] = true;
+            const HalfEdgeId h = half_edge({f}, corner);
+            if (is_dry(face_of(mesh.twin(h))) && pieces[v.value] < 3 && is_short_for_its_faces(tin_, h)) {
+                ++pieces[v.value];
             }
         }
     }
-    for (std::uint32_t f = 0; f < mesh.slot_count(); ++f) {
-        if (!is_dry({f}) || !is_flat(tin_, {f})) {
-            for (const VertexId v : mesh.face({f}).vertex) {
-                if (v != kGhostVertex) {
-                    is_measured_[v.value] = false;
-                }
-            }
-        }
+    for (std::size_t v = 0; v < pieces.size(); ++v) {
+        is_measured_[v] = is_measured_[v] && pieces[v] != kSloping && pieces[v] != 2;
     }
 }
 
@@ -63,15 +75,85 @@ void FlatRegions::find_contour_pieces() {
     for (std::uint32_t f = 0; f < mesh.slot_count(); ++f) {
         for (unsigned corner = 0; corner < 3 && is_treated({f}); ++corner) {
             const HalfEdgeId h = half_edge({f}, corner);
-            const VertexId a = mesh.origin(h);
-            const VertexId b = mesh.destination(h);
-            const bool is_between_lines = is_on_line_[a.value] && is_on_line_[b.value];
-            if (!mesh.is_constrained(h) && !is_between_lines && is_dry(face_of(mesh.twin(h))) &&
-                is_short_for_its_faces(tin_, h)) {
-                contour_pieces_.emplace_back(std::min(a, b), std::max(a, b));
+            if (is_uncertain(h) && is_short_for_its_faces(tin_, h)) {
+                contour_pieces_.push_back(ends_of(mesh, h));
             }
         }
     }
+    sort_pieces();
+    std::vector<Edge> pieces;
+    std::vector<bool> is_seen(mesh.slot_count());
+    std::vector<HalfEdgeId> rim;
+    for (std::uint32_t f = 0; f < mesh.slot_count(); ++f) {
+        if (!is_seen[f] && is_treated({f})) {
+            find_rim({f}, is_seen, rim);
+            judge_rim(rim, pieces);
+        }
+    }
+    contour_pieces_ = std::move(pieces);
+    sort_pieces();
+}
+
+bool FlatRegions::is_uncertain(HalfEdgeId h) const {
+    const TriangleMesh& mesh = tin_.mesh;
+    return !mesh.is_constrained(h) && is_dry(face_of(mesh.twin(h))) &&
+           !(is_on_line_[mesh.origin(h).value] && is_on_line_[mesh.destination(h).value]);
+}
+
+void FlatRegions::find_rim(FaceId first, std::vector<bool>& is_seen, std::vector<HalfEdgeId>& rim) const {
+    rim.clear();
+    std::vector<FaceId> region = {first};
+    is_seen[first.value] = true;
+    for (std::size_t i = 0; i < region.size(); ++i) {
+        for (unsigned corner = 0; corner < 3; ++corner) {
+            const HalfEdgeId h = half_edge(region[i], corner);
+            const FaceId across = face_of(tin_.mesh.twin(h));
+            if (kind(h) != FlatEdge::Inner) {
+                rim.push_back(h);
+            } else if (!is_seen[across.value]) {
+                is_seen[across.value] = true;
+                region.push_back(across);
+            }
+        }
+    }
+    std::sort(rim.begin(), rim.end());
+}
+
+void FlatRegions::judge_rim(const std::vector<HalfEdgeId>& rim, std::vector<Edge>& pieces) const {
+    const TriangleMesh& mesh = tin_.mesh;
+    const auto rise_beyond = [&](HalfEdgeId h) {
+        const HalfEdgeId t = mesh.twin(h);
+        return is_dry(face_of(t)) ? tin_.z[mesh.origin(previous(t)).value] - tin_.z[mesh.origin(h).value] : 0;
+    };
+    // What the terrain does behind the walls: what lies behind openings does the opposite. A guess that
+    // says so of all edges is kept; otherwise the longer part of the rim, walls twice, is the walls.
+    struct Lengths {
+        double up = 0;
+        double down = 0;
+    };
+    Lengths walls;
+    Lengths openings;
+    for (const HalfEdgeId h : rim) {
+        const double rise = rise_beyond(h);
+        if (rise != 0) {
+            Lengths& lengths = kind(h) == FlatEdge::Wall ? walls : openings;
+            (rise > 0 ? lengths.up : lengths.down) +=
+                std::sqrt(squared_distance(tin_.key(mesh.origin(h)), tin_.key(mesh.destination(h))));
+        }
+    }
+    const bool is_consistent = walls.up + walls.down > 0 && ((walls.up == 0 && openings.down == 0) ||
+                                                             (walls.down == 0 && openings.up == 0));
+    const double beyond = 2 * (walls.up - walls.down) + (is_consistent ? 0 : openings.up - openings.down);
+    for (const HalfEdgeId h : rim) {
+        const double rise = rise_beyond(h);
+        const bool is_told = beyond != 0 && rise != 0;
+        if (is_uncertain(h) && (is_told ? (rise > 0) == (beyond > 0) : kind(h) == FlatEdge::Wall)) {
+            pieces.push_back(ends_of(mesh, h));
+        }
+    }
+}
+
+void FlatRegions::sort_pieces() {
     std::sort(contour_pieces_.begin(), contour_pieces_.end());
     contour_pieces_.erase(std::unique(contour_pieces_.begin(), contour_pieces_.end()), contour_pieces_.end());
 }
@@ -92,8 +174,7 @@ FlatEdge FlatRegions::kind(HalfEdgeId h) const {
     if (mesh.is_constrained(h) || !is_dry(across)) {
         return FlatEdge::Wall;
     }
-    const std::pair<VertexId, VertexId> edge = std::minmax(mesh.origin(h), mesh.destination(h));
-    if (std::binary_search(contour_pieces_.begin(), contour_pieces_.end(), edge)) {
+    if (std::binary_search(contour_pieces_.begin(), contour_pieces_.end(), ends_of(mesh, h))) {
         return FlatEdge::Wall;
     }
     if (!is_flat(tin_, across)) {

@@ -39,14 +39,20 @@ class FlatRegions {
     }
 
   private:
+    using Edge = std::pair<VertexId, VertexId>;  // the smaller first
+
     void find_measured();
     void find_contour_pieces();
+    [[nodiscard]] bool is_uncertain(HalfEdgeId h) const;
+    void find_rim(FaceId first, std::vector<bool>& is_seen, std::vector<HalfEdgeId>& rim) const;
+    void judge_rim(const std::vector<HalfEdgeId>& rim, std::vector<Edge>& pieces) const;
+    void sort_pieces();
 
     const Tin& tin_;
     const std::vector<bool>& is_water_;
-    std::vector<bool> is_on_line_;                               // by vertex
-    std::vector<bool> is_measured_;                              // by vertex: flat all around
-    std::vector<std::pair<VertexId, VertexId>> contour_pieces_;  // that are not constrained; ascending
+    std::vector<bool> is_on_line_;      // by vertex
+    std::vector<bool> is_measured_;     // by vertex: flat all around
+    std::vector<Edge> contour_pieces_;  // that are not constrained; ascending
 };
 
 /// Whether the three vertices of a face that is no ghost have one elevation.

@@ -97,7 +97,7 @@ class Relief {
             Way& way = ways_[*n];
             way.remaining = std::max({way.remaining, axes_.nodes[*n].end, axes_.nodes[*n].half_width});
             for (const AxisLink& link : links_of(*n)) {
-                way.remaining = std::max(way.remaining, beyond_meeting(way, ways_[link.to], *n, link));
+                way.remaining = std::max(way.remaining, beyond_meeting(*n, link));
             }
             if (way.from != AxisNode::kNone) {
                 const double length = way.done - ways_[way.from].done;
@@ -107,16 +107,20 @@ class Relief {
         }
     }
 
-    /// Where a way meets one from elsewhere: how far its end is then to be thought.
-    [[nodiscard]] static double beyond_meeting(const Way& way, const Way& other, std::uint32_t node,
-                                               const AxisLink& link) {
+    /// How much remains of a way behind a node where it meets another. Where both come from the same side,
+    /// the place is a pass: between hyperbolas whose halves are `half` and `width` from it the squares of
+    /// these tell how far it is up from one contour to the other.
+    [[nodiscard]] double beyond_meeting(std::uint32_t node, const AxisLink& link) const {
+        const Way& way = ways_[node];
+        const Way& other = ways_[link.to];
         if (way.from == link.to || other.from == node) {
             return 0;
         }
-        const double whole = way.done + link.length + other.done;
-        const bool are_on_one_side = (way.rise > 0) == (other.rise > 0);
-        const double end = are_on_one_side && way.outlet != other.outlet ? whole : whole / 2;
-        return end - way.done;
+        const double half = (way.done + link.length + other.done) / 2;
+        const bool is_pass = (way.rise > 0) == (other.rise > 0) && way.outlet != other.outlet;
+        const double width =
+            is_pass ? std::min(axes_.nodes[node].half_width, axes_.nodes[link.to].half_width) : 0;
+        return half - way.done + width * width / half;
     }
 
     /// Regions without a way out, node by node as they hang together.
