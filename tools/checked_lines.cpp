@@ -5,11 +5,11 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
-#include <set>
 
 #include "tinwright/geometry/decimal.hpp"
 
 #include "conflict_layer.hpp"
+#include "part_names.hpp"
 
 namespace tinwright::tools {
 
@@ -18,48 +18,6 @@ namespace {
 using Kind = LineConflict::Kind;
 
 constexpr std::size_t kListed = 1000;  // of each kind
-
-/// Names lines and samples by where they came from.
-class PartNames {
-  public:
-    explicit PartNames(const CheckedLines& checked) : checked_(checked) {
-        std::set<std::pair<std::string, std::string>> layers;
-        for (const io::LineSlice& slice : checked.lines.slices) {
-            layers.emplace(slice.file, slice.layer);
-        }
-        for (const auto& [file, layer] : layers) {
-            (files_.contains(file) ? several_ : files_).insert(file);
-        }
-    }
-
-    /// `roads.gpkg: feature 7`, with the layer where several of a file were read.
-    [[nodiscard]] std::string of_line(std::uint32_t line) const {
-        const io::LineSlice& slice = checked_.lines.slice_of(line);
-        const io::LinePart& part = checked_.lines.parts[line];
-        return of_feature(slice.file, slice.layer, part.feature) +
-               (part.part > 0 ? ", part " + std::to_string(part.part) : std::string());
-    }
-    [[nodiscard]] std::string of_feature(const std::string& file, const std::string& layer,
-                                         std::int64_t feature) const {
-        return file + (several_.contains(file) ? ", layer " + layer : std::string()) + ": feature " +
-               std::to_string(feature);
-    }
-    [[nodiscard]] std::string of_sample(std::uint32_t sample) const {
-        const io::SampleSlice* const slice = checked_.samples.find_slice(sample);
-        if (slice == nullptr) {
-            return "sample " + std::to_string(sample);
-        }
-        const std::string noun = slice->kind == io::SampleSlice::Kind::Vector   ? ": feature "
-                                 : slice->kind == io::SampleSlice::Kind::Raster ? ": cell "
-                                                                                : ": line ";
-        return slice->file + noun + std::to_string(slice->id(sample - slice->first));
-    }
-
-  private:
-    const CheckedLines& checked_;
-    std::set<std::string> files_;
-    std::set<std::string> several_;  // files with several layers
-};
 
 struct Phrase {
     const char* alone;  ///< of one line, or of a line with itself
@@ -85,12 +43,6 @@ constexpr std::array<Phrase, LineConflict::kKinds> kPhrases = {
      {"turns back on itself", "", ""},
      {"has no z", "", ""},
      {"is a ring that is not closed", "", ""}}};
-
-/// To six decimals: places that were made have as many digits as a double holds.
-double rounded(double value) {
-    constexpr double kSteps = 1e6;
-    return std::abs(value) < 1e9 ? std::round(value * kSteps) / kSteps : value;
-}
 
 std::string z_text(const LineConflict& conflict) {
     const bool has_a = !std::isnan(conflict.z_a);
@@ -217,7 +169,7 @@ std::vector<LineTraits> traits_of(const io::Lines& lines) {
 }
 
 std::string conflict_lines(const CheckedLines& checked) {
-    const PartNames names(checked);
+    const PartNames names(checked.lines, checked.samples);
     std::string list;
     for (const io::FeatureFault& fault : checked.lines.faults) {
         const auto slice =

@@ -41,7 +41,7 @@ void CommandContour::setup(const std::vector<std::string>& arguments) {
     add_value(*parser, "--layer-name,--nln", layer_name, "NAME", "layer to write (contours, bands)");
     contours.add_to(*parser);
     interpolation.add_to(*parser);
-    lines.add_sources_to(*parser);
+    lines.add_all_sources_to(*parser);
     triangulation.add_to(*parser, "trimmed");
     lines.add_constraints_to(*parser);
     lines.add_fitting_to(*parser);

@@ -38,7 +38,7 @@ void CommandExplain::setup(const std::vector<std::string>& arguments) {
     add_repeatable(*parser, "--at", sample.at_texts, "X,Y", "the place, instead of after the sources");
     sample.add_slope_unit_to(*parser);
     interpolation.add_to(*parser);
-    lines.add_sources_to(*parser);
+    lines.add_all_sources_to(*parser);
     triangulation.add_to(*parser, "trimmed");
     lines.add_constraints_to(*parser);
     lines.add_fitting_to(*parser);

@@ -29,7 +29,7 @@ void CommandGrid::setup(const std::vector<std::string>& arguments) {
     interpolation.add_to(*parser);
     products.add_to(*parser);
     raster.add_values_to(*parser);
-    lines.add_sources_to(*parser);
+    lines.add_all_sources_to(*parser);
     triangulation.add_to(*parser, "trimmed");
     lines.add_constraints_to(*parser);
     lines.add_fitting_to(*parser);

@@ -67,7 +67,7 @@ void CommandSample::setup(const std::vector<std::string>& arguments) {
     interpolation.add_to(*parser);
     output.add_to(*parser, "table to write (default: CSV on stdout)",
                   "output driver (default: from the extension)");
-    lines.add_sources_to(*parser);
+    lines.add_all_sources_to(*parser);
     triangulation.add_to(*parser, "trimmed");
     lines.add_constraints_to(*parser);
     lines.add_fitting_to(*parser);

@@ -47,7 +47,7 @@ void CommandTin::setup(const std::vector<std::string>& arguments) {
     add_value(*parser, "--geometry", geometry_text, "WHAT", "polygon (default)|tin|edges|vertices");
     parser->add_flag("--ids", keep_ids, "record line and cell numbers as feature ids");
     graph.add_to(*parser);
-    lines.add_sources_to(*parser);
+    lines.add_all_sources_to(*parser);
     triangulation.add_to(*parser, "convex");
     parser->get_option("--norm")->group("Options")->description("of lengths: l1|l2 (default)|linf|lp:P");
     lines.add_constraints_to(*parser);
@@ -193,6 +193,10 @@ Outcome CommandTin::run_tin(Console& console) {
     options.metadata.insert(options.metadata.end(), criterion.begin(), criterion.end());
     const io::TinMetadata of_lines = lines_metadata(surface.lines);
     options.metadata.insert(options.metadata.end(), of_lines.begin(), of_lines.end());
+    if (surface.water) {
+        const io::TinMetadata of_water = water_metadata(*surface.water);
+        options.metadata.insert(options.metadata.end(), of_water.begin(), of_water.end());
+    }
     options.origins = std::move(surface.origins.vertices);
     options.lines = std::move(surface.origins.lines);
     options.progress = console.progress().stage(0.7, 1);

@@ -67,6 +67,9 @@ std::optional<double> optimize_seconds(const TriangulateReport& report) {
 JsonValue timings_json(const JobReport& report, const Surface& surface) {
     JsonValue timings = JsonValue::object();
     timings.set("read", surface.read_seconds);
+    if (surface.water) {
+        timings.set("water", surface.water->report.seconds);
+    }
     if (surface.report) {
         timings.set("triangulate", surface.report->triangulate_seconds);
     }
@@ -101,6 +104,9 @@ void set_face_keys(JsonValue& json, const Surface& surface) {
     }
     if (surface.lines.counts) {
         json.set("lines", lines_json(surface.lines));
+    }
+    if (surface.water) {
+        json.set("water", water_json(*surface.water));
     }
     if (!surface.criterion.name.empty()) {
         json.set("criterion", criterion_json(surface.criterion));
@@ -220,6 +226,7 @@ std::string crs_line(const Surface& surface) {
 
 std::string times_line(const JobReport& report, const Surface& surface) {
     std::string times = "read " + fixed(surface.read_seconds, 2);
+    times += surface.water ? ", water " + fixed(surface.water->report.seconds, 2) : "";
     if (surface.report) {
         times += ", triangulate " + fixed(surface.report->triangulate_seconds, 2) +
                  (report.graph ? ", graph " + fixed(report.graph->seconds, 2)
@@ -312,6 +319,11 @@ std::string report_text(const JobReport& report, const Surface& surface, const R
     }
     for (const auto& [label, line] : lines_lines(surface.lines)) {
         add(label, line);
+    }
+    if (surface.water) {
+        for (const auto& [label, line] : water_lines(*surface.water)) {
+            add(label, line);
+        }
     }
     if (report.graph) {
         add("graph",

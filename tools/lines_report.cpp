@@ -27,6 +27,10 @@ std::string roles_text(const LineCounts& counts) {
     add(counts.breaklines, "breakline", "breaklines");
     add(counts.boundaries, "boundary ring", "boundary rings");
     add(counts.holes, "hole ring", "hole rings");
+    add(counts.lakes, "lake ring", "lake rings");
+    add(counts.rivers, "river", "rivers");
+    add(counts.banks, "bank ring", "bank rings");
+    add(counts.sections, "section", "sections");
     return text;
 }
 
@@ -51,6 +55,26 @@ std::size_t count_line_edges(const Tin& tin) {
     return edges;
 }
 
+std::size_t& count_of(LineCounts& counts, LineRole role) {
+    switch (role) {
+        case LineRole::Boundary:
+            return counts.boundaries;
+        case LineRole::Hole:
+            return counts.holes;
+        case LineRole::Lake:
+            return counts.lakes;
+        case LineRole::Bank:
+            return counts.banks;
+        case LineRole::River:
+            return counts.rivers;
+        case LineRole::Section:
+            return counts.sections;
+        case LineRole::Breakline:
+            break;
+    }
+    return counts.breaklines;
+}
+
 }  // namespace
 
 LinesSummary summarize_lines(const LineOptions& options, const io::Lines& lines, const Tin& tin,
@@ -65,9 +89,7 @@ LinesSummary summarize_lines(const LineOptions& options, const io::Lines& lines,
     summary.steiner_vertices = report.conforming ? report.conforming->steiner_vertices : 0;
     LineCounts& counts = summary.counts.emplace();
     for (const Breakline& line : lines.lines) {
-        counts.breaklines += line.role == LineRole::Breakline ? 1U : 0U;
-        counts.boundaries += line.role == LineRole::Boundary ? 1U : 0U;
-        counts.holes += line.role == LineRole::Hole ? 1U : 0U;
+        ++count_of(counts, line.role);
     }
     counts.points = report.lines.line_points;
     counts.sources = options.sources.size();
@@ -135,6 +157,10 @@ JsonValue lines_json(const LinesSummary& summary) {
     return json.set("breaklines", counts.breaklines)
         .set("boundaries", counts.boundaries)
         .set("holes", counts.holes)
+        .set("lakes", counts.lakes)
+        .set("rivers", counts.rivers)
+        .set("banks", counts.banks)
+        .set("sections", counts.sections)
         .set("points", counts.points)
         .set("skipped", counts.skipped)
         .set("edges", counts.edges)

@@ -22,6 +22,10 @@ struct LineCounts {
     std::size_t breaklines = 0;
     std::size_t boundaries = 0;
     std::size_t holes = 0;
+    std::size_t lakes = 0;  ///< rings, as of boundaries and holes
+    std::size_t banks = 0;
+    std::size_t rivers = 0;
+    std::size_t sections = 0;  ///< from bank to bank
     std::size_t points = 0;
     std::size_t sources = 0;
     std::size_t skipped = 0;  ///< unusable features

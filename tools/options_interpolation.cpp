@@ -3,9 +3,11 @@
 #include <cmath>
 #include <limits>
 #include <string_view>
+#include <utility>
 
 #include "tinwright/geometry/decimal.hpp"
 #include "tinwright/geometry/error.hpp"
+#include "tinwright/surface/facets.hpp"
 
 #include "option_values.hpp"
 
@@ -140,7 +142,8 @@ std::string InterpolationChoice::canonical() const {
 std::unique_ptr<Interpolator> InterpolationChoice::make(const Surface& surface, int threads) const {
     InterpolationOptions threaded = options;
     threaded.threads = threads;
-    return make_interpolator(surface.tin, SharpEdges(surface.tin, surface.is_line_sharp), threaded);
+    auto made = make_interpolator(surface.tin, SharpEdges(surface.tin, surface.is_line_sharp), threaded);
+    return is_linear() ? std::move(made) : keep_facets(surface.tin, std::move(made), surface.is_water_face);
 }
 
 }  // namespace tinwright::tools

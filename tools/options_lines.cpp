@@ -41,6 +41,12 @@ void LineOptions::add_sources_to(CLI::App& parser) {
     add_repeatable(parser, "--holes", hole_texts, "SOURCE", "polygons without surface");
 }
 
+void LineOptions::add_all_sources_to(CLI::App& parser) {
+    add_sources_to(parser);
+    water.add_sources_to(parser);
+    water.add_levels_to(parser, false);
+}
+
 void LineOptions::add_fitting_to(CLI::App& parser) {
     add_value(parser, "--snap", snap_text, "D", "move together points of lines closer than this");
     add_value(parser, "--crossing-z", crossing_z_text, "POLICY", "error (default)|mean|first|min|max");
@@ -68,6 +74,9 @@ void LineOptions::finish(const std::vector<std::string>& open_options) {
     add(breakline_texts, LineRole::Breakline);
     add(boundary_texts, LineRole::Boundary);
     add(hole_texts, LineRole::Hole);
+    water.finish(open_options);
+    water.check_roles(water.roles());
+    sources.insert(sources.end(), water.sources.begin(), water.sources.end());
     if (sources.empty() && !first_given().empty()) {
         throw UsageError(first_given() + " is for lines: give --breaklines, --boundary or --holes too");
     }
@@ -117,7 +126,13 @@ std::string LineOptions::first_given() const {
             return name;
         }
     }
-    return {};
+    return water.first_given();
+}
+
+WaterOptions LineOptions::water_options() const {
+    WaterOptions options = water.options;
+    options.meeting_levels = noding.crossing_z;
+    return options;
 }
 
 std::vector<io::Source> LineOptions::plain_sources() const {
@@ -163,7 +178,7 @@ std::string LineOptions::canonical() const {
     if (noding.crossing_tolerance > 0) {
         text += " --crossing-tolerance " + decimal_text(noding.crossing_tolerance);
     }
-    return text;
+    return text + water.canonical();
 }
 
 }  // namespace tinwright::tools

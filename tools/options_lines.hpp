@@ -8,12 +8,14 @@
 #include "tinwright/io/read_lines.hpp"
 #include "tinwright/optimal/triangulate.hpp"
 
+#include "options_water.hpp"
 #include "parse_options.hpp"
 
 namespace tinwright::tools {
 
-/// Sources of lines, and how lines are fitted together and into the TIN.
+/// Sources of lines, and how lines are fitted together and into the TIN. Water is lines, too.
 struct LineOptions {
+    WaterChoice water;
     std::vector<std::string> breakline_texts;
     std::vector<std::string> boundary_texts;
     std::vector<std::string> hole_texts;
@@ -27,7 +29,7 @@ struct LineOptions {
     std::string conflicts;  ///< file for the conflicts; empty: none
 
     // After `finish`:
-    std::vector<io::LineSource> sources;  ///< breaklines, then boundaries, then holes, each in order
+    std::vector<io::LineSource> sources;  ///< breaklines, boundaries, holes, then water, each in order
     NodingOptions noding;                 ///< without progress
     double line_tolerance = 0;
     std::optional<ConformingOptions> conforming;  ///< empty: constrained; without progress
@@ -36,6 +38,8 @@ struct LineOptions {
     void add_sources_to(CLI::App& parser);
     /// --snap, --crossing-z, --crossing-tolerance and --line-tolerance.
     void add_fitting_to(CLI::App& parser);
+    /// The same and --lakes, --rivers and --banks, and how water gets its levels.
+    void add_all_sources_to(CLI::App& parser);
     /// --constraints, --conforming-method, --max-steiner and --conflicts.
     void add_constraints_to(CLI::App& parser);
     /// Reads the texts; `open_options` (--oo) join those of each source. Throws UsageError, also for options
@@ -43,6 +47,9 @@ struct LineOptions {
     void finish(const std::vector<std::string>& open_options);
 
     [[nodiscard]] bool has_breaklines() const { return !breakline_texts.empty(); }
+    [[nodiscard]] bool has_water() const { return !water.sources.empty(); }
+    /// How water gets its levels; without progress.
+    [[nodiscard]] WaterOptions water_options() const;
     /// The first of these options that was given, or empty.
     [[nodiscard]] std::string first_given() const;
     /// The sources without their roles.

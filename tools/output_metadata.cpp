@@ -29,6 +29,9 @@ io::TinMetadata output_metadata(const std::string& command, const Surface& surfa
     metadata.insert(metadata.end(), criterion.begin(), criterion.end());
     const io::TinMetadata of_lines = lines_metadata(surface.lines);
     metadata.insert(metadata.end(), of_lines.begin(), of_lines.end());
+    const io::TinMetadata of_water =
+        surface.water ? water_metadata(*surface.water) : water_metadata_of(surface.metadata);
+    metadata.insert(metadata.end(), of_water.begin(), of_water.end());
     const std::string before = surface_options(surface, triangulation, lines);
     metadata.emplace_back("TINWRIGHT_OPTIONS", before.empty() ? reading : before + " " + reading);
     return metadata;

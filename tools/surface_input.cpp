@@ -5,11 +5,13 @@
 #include <utility>
 
 #include "tinwright/geometry/error.hpp"
+#include "tinwright/geometry/threads.hpp"
 #include "tinwright/io/gdal_session.hpp"
 #include "tinwright/io/read_tin.hpp"
 
 #include "conflict_layer.hpp"
-#include "line_points.hpp"
+#include "located_errors.hpp"
+#include "water_lines.hpp"
 
 namespace tinwright::tools {
 
@@ -31,68 +33,11 @@ bool looks_like_tin(const io::Source& source) {
     return can_look_first(source) && io::is_tin(source);
 }
 
-/// Samples and lines as they were read, and the names of both in messages.
+/// Samples and lines as they were read.
 struct Inputs {
     io::Samples samples;
     io::Lines lines;
-
-    /// Of a sample, or from the number of samples on of a line's point.
-    [[nodiscard]] std::string describe_point(std::size_t index, const LinePoints& line_points) const {
-        if (index < samples.points.size()) {
-            return samples.describe(index);
-        }
-        const auto line = line_points.find_line(index - samples.points.size());
-        return line ? lines.describe(*line) : "point " + std::to_string(index);
-    }
 };
-
-/// `message` with the first few of the places it is about.
-std::string located(const std::string& message, const std::vector<std::string>& places) {
-    constexpr std::size_t kNamed = 3;
-    std::string text = message;
-    for (std::size_t i = 0; i < std::min(places.size(), kNamed); ++i) {
-        text += (i == 0 ? " (" : "; ") + places[i];
-    }
-    if (places.size() > kNamed) {
-        text += "; and " + std::to_string(places.size() - kNamed) + " more";
-    }
-    return places.empty() ? text : text + ")";
-}
-
-/// What `make` returns; its errors get the places in the files added.
-template <class Make>
-Triangulated make_located(const Inputs& inputs, const Make& make) {
-    const LinePoints line_points(inputs.lines.lines);
-    const auto places_of = [&](const std::vector<std::size_t>& points) {
-        std::vector<std::string> places;
-        places.reserve(points.size());
-        for (const std::size_t point : points) {
-            places.push_back(inputs.describe_point(point, line_points));
-        }
-        places.erase(std::unique(places.begin(), places.end()), places.end());
-        return places;
-    };
-    try {
-        return make();
-    } catch (const DuplicateError& error) {
-        std::vector<std::size_t> first;
-        if (!error.first().empty()) {
-            first = error.first().front().samples;
-        }
-        throw InputError(located(error.what(), places_of(first)), first);
-    } catch (const BreaklineError& error) {
-        std::vector<std::string> places;
-        for (const std::size_t line : error.lines()) {
-            places.push_back(inputs.lines.describe(line));
-        }
-        places.erase(std::unique(places.begin(), places.end()), places.end());
-        const std::vector<std::string> samples = places_of(error.samples());
-        places.insert(places.end(), samples.begin(), samples.end());
-        throw InputError(located(error.what(), places), error.samples());
-    } catch (const InputError& error) {
-        throw InputError(located(error.what(), places_of(error.samples())), error.samples());
-    }
-}
 
 Inputs read_inputs(const SurfaceRequest& request, Console& console, double end) {
     const bool has_lines = request.lines != nullptr && !request.lines->sources.empty();
@@ -127,6 +72,20 @@ Inputs read_inputs(const SurfaceRequest& request, Console& console, double end) 
         }
     }
     return inputs;
+}
+
+/// Levels the water among the lines, which changes samples and lines.
+WaterSummary level_inputs(const SurfaceRequest& request, Inputs& inputs, const Progress& progress) {
+    WaterOptions options = request.lines->water_options();
+    options.progress = progress;
+    Water water;
+    run_located(inputs.samples, inputs.lines, [&] {
+        run_with_threads(request.triangulation.threads,
+                         [&] { water = level_water(inputs.samples.points, inputs.lines.lines, options); });
+    });
+    WaterSummary summary = summarize_water(water, inputs.lines, options);
+    take_water(inputs.samples, inputs.lines, std::move(water.lines), water.origin, water.lifted);
+    return summary;
 }
 
 std::vector<io::SampleSlice> slices_without_ids(Inputs& inputs) {
@@ -226,20 +185,26 @@ Surface triangulate_sources(const SurfaceRequest& request, Console& console) {
         request.triangulation.optimize.has_value() || request.triangulation.data_dependent.has_value();
     const double triangulate_at = request.progress_end * (is_optimizing ? 0.2 : 0.5);
     const double optimize_at = request.progress_end * (is_optimizing ? 0.3 : 1.0);
-    Inputs inputs = read_inputs(request, console, triangulate_at);
+    const bool has_water = request.lines != nullptr && request.lines->has_water();
+    const double read_end = triangulate_at * (has_water ? 0.8 : 1.0);
+    Inputs inputs = read_inputs(request, console, read_end);
     TriangulateOptions options = request.triangulation.library_options(
         console.progress().stage(triangulate_at, optimize_at),
         console.progress().stage_to_leave(optimize_at, request.progress_end));
     if (request.lines != nullptr) {
         request.lines->apply_to(options);
     }
-    Triangulated made =
-        make_located(inputs, [&] { return triangulate(inputs.samples.points, inputs.lines.lines, options); });
+    Surface surface;
+    if (has_water) {
+        surface.water = level_inputs(request, inputs, console.progress().stage(read_end, triangulate_at));
+    }
+    Triangulated made;
+    run_located(inputs.samples, inputs.lines,
+                [&] { made = triangulate(inputs.samples.points, inputs.lines.lines, options); });
     // What was done while reading comes first, as it was done first.
     std::vector<LineConflict>& conflicts = made.report.lines.conflicts;
     conflicts.insert(conflicts.begin(), inputs.lines.conflicts.begin(), inputs.lines.conflicts.end());
 
-    Surface surface;
     surface.crs = inputs.samples.crs.is_known() ? inputs.samples.crs : inputs.lines.crs;
     surface.z_unit = inputs.samples.z_unit.empty() ? inputs.lines.z_unit : inputs.samples.z_unit;
     if (request.keep_origins) {
@@ -255,11 +220,19 @@ Surface triangulate_sources(const SurfaceRequest& request, Console& console) {
     }
     for (const Breakline& line : inputs.lines.lines) {
         surface.is_line_sharp.push_back(line.is_sharp);
+        surface.is_river_line.push_back(line.role == LineRole::River);
+    }
+    if (has_water) {
+        surface.is_water_face = find_water_faces(made.tin, inputs.lines.lines);
     }
     surface.tin = std::move(made.tin);
     surface.report = std::move(made.report);
     surface.criterion = make_criterion_report(request.triangulation, *surface.report, surface.crs);
     std::vector<std::string> warnings = lines_warnings(surface.lines);
+    if (surface.water) {
+        const std::vector<std::string> of_water = water_warnings(*surface.water);
+        warnings.insert(warnings.end(), of_water.begin(), of_water.end());
+    }
     for (std::string& warning :
          criterion_warnings(request.triangulation, *surface.report, surface.crs, surface.z_unit)) {
         warnings.push_back(std::move(warning));
@@ -279,8 +252,9 @@ Surface triangulate_locations(const SurfaceRequest& request, Console& console) {
     options.duplicates = request.triangulation.duplicates;
     options.threads = request.triangulation.threads;
     options.progress = console.progress().stage(read_end, request.progress_end);
-    Triangulated made = make_located(
-        inputs, [&] { return tinwright::triangulate_locations(inputs.samples.points, options); });
+    Triangulated made;
+    run_located(inputs.samples, inputs.lines,
+                [&] { made = tinwright::triangulate_locations(inputs.samples.points, options); });
     Surface surface;
     surface.crs = inputs.samples.crs;
     surface.z_unit = inputs.samples.z_unit;
@@ -305,6 +279,7 @@ Surface read_existing_tin(const SurfaceRequest& request, Console& console) {
     surface.tin = io::make_tin(file);
     for (const io::LineOrigin& line : file.lines) {
         surface.is_line_sharp.push_back(line.is_sharp);
+        surface.is_river_line.push_back(line.role == LineRole::River);
     }
     if (request.keep_origins) {
         surface.origins = origins_of_file(surface.tin, file);
@@ -316,7 +291,8 @@ Surface read_existing_tin(const SurfaceRequest& request, Console& console) {
     surface.lines = read_lines_summary(surface.metadata);
     surface.tin_layer = std::move(file.layer);
     if (request.triangulation.max_edge) {
-        surface.void_faces = drop_long_faces(surface.tin, *request.triangulation.max_edge);
+        surface.void_faces =
+            drop_long_faces(surface.tin, *request.triangulation.max_edge, surface.is_water_face);
     }
     surface.read_seconds = seconds_since(start);
     return surface;

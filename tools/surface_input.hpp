@@ -21,6 +21,7 @@
 #include "options_sources.hpp"
 #include "options_triangulation.hpp"
 #include "vertex_origins.hpp"
+#include "water_report.hpp"
 
 namespace tinwright::tools {
 
@@ -44,9 +45,13 @@ struct Surface {
     std::vector<SourceName> source_names;
     /// For each line that the TIN's traces number: whether the surface may have a crease along it.
     std::vector<bool> is_line_sharp;
-    io::TinMetadata metadata;    ///< of the TIN file
-    std::string tin_layer;       ///< of the TIN file
-    std::size_t void_faces = 0;  ///< dropped by --max-edge from a TIN file
+    /// Likewise: whether it is a river.
+    std::vector<bool> is_river_line;
+    std::vector<bool> is_water_face;    ///< by face slot: on a lake or between banks; empty: none is
+    std::optional<WaterSummary> water;  ///< only when triangulated, and with water
+    io::TinMetadata metadata;           ///< of the TIN file
+    std::string tin_layer;              ///< of the TIN file
+    std::size_t void_faces = 0;         ///< dropped by --max-edge from a TIN file
     double read_seconds = 0;
     /// The file of --conflicts, complete but under a temporary name; null: none was asked for.
     std::unique_ptr<io::AtomicOutput> conflicts;
