@@ -1,9 +1,15 @@
 #include "command_grid.hpp"
 
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <memory>
+#include <string_view>
+#include <utility>
 
 #include "tinwright/geometry/decimal.hpp"
+#include "tinwright/geometry/threads.hpp"
+#include "tinwright/water/river_cells.hpp"
 
 #include "conflict_layer.hpp"
 #include "console.hpp"
@@ -13,6 +19,18 @@
 #include "surface_input.hpp"
 
 namespace tinwright::tools {
+
+namespace {
+
+constexpr auto kRiverCells =
+    std::to_array<std::pair<std::string_view, bool>>({{"line", true}, {"surface", false}});
+
+bool has_rivers(const Surface& surface) {
+    return std::find(surface.is_river_line.begin(), surface.is_river_line.end(), true) !=
+           surface.is_river_line.end();
+}
+
+}  // namespace
 
 void CommandGrid::setup(const std::vector<std::string>& arguments) {
     const auto parser = make_parser(
@@ -33,6 +51,11 @@ void CommandGrid::setup(const std::vector<std::string>& arguments) {
     triangulation.add_to(*parser, "trimmed");
     lines.add_constraints_to(*parser);
     lines.add_fitting_to(*parser);
+    add_value(*parser, "--river-cells", river_cells_text, "RULE", "line (default)|surface")->group("");
+    for (const char* const rare :
+         {"--conforming-method", "--max-steiner", "--crossing-tolerance", "--line-tolerance"}) {
+        parser->get_option(rare)->group("");  // the screen is full: told of in the manual page
+    }
     crs.add_to(*parser);
     triangulation.add_threads_to(*parser);
     talk.add_to(*parser);
@@ -46,6 +69,9 @@ void CommandGrid::setup(const std::vector<std::string>& arguments) {
     products.finish();
     if (!raster.preview.empty() && products.options.products.front() != Product::Elevation) {
         throw UsageError("--preview shades elevations: let --product begin with elevation");
+    }
+    if (!river_cells_text.empty()) {
+        are_river_cells = choice_value("--river-cells", river_cells_text, kRiverCells);
     }
     triangulation.finish(DomainRule::Kind::Trimmed);
     talk.finish(output.is_stdout());
@@ -109,6 +135,24 @@ io::WrittenGrid CommandGrid::write(const Surface& surface, const GridGeometry& g
     return written;
 }
 
+std::string CommandGrid::reading_options(const Surface& surface) const {
+    const std::string cells = " --river-cells " + choice_name(are_river_cells, kRiverCells);
+    return interpolation.canonical() + products.canonical() + (has_rivers(surface) ? cells : std::string());
+}
+
+void CommandGrid::set_river_cells(Surface& surface, const GridGeometry& grid,
+                                  GriddingOptions& gridding) const {
+    if (!are_river_cells || !has_rivers(surface)) {
+        return;
+    }
+    run_with_threads(triangulation.threads, [&] {
+        gridding.cells = find_river_cells(surface.tin, surface.is_river_line, surface.is_water_face, grid);
+    });
+    if (surface.water) {
+        surface.water->river_cells = gridding.cells.size();
+    }
+}
+
 void CommandGrid::check_targets(std::span<const std::string> targets,
                                 const io::WriteGridOptions& options) const {
     std::vector<io::Source> read = lines.plain_sources();
@@ -145,8 +189,10 @@ Outcome CommandGrid::run() {
                                  .overwrite_conflicts = output.overwrite,
                                  .progress_end = 0.6};
     const bool is_tin = is_existing_tin(request);
-    const Surface surface =
-        is_tin ? read_existing_tin(request, console) : triangulate_sources(request, console);
+    if (!is_tin && !river_cells_text.empty() && lines.water.river_texts.empty()) {
+        throw UsageError("--river-cells is for rivers: give --rivers too");
+    }
+    Surface surface = is_tin ? read_existing_tin(request, console) : triangulate_sources(request, console);
     const GridGeometry grid = grid_for(surface, like, like_crs);
     if (like_crs.is_known() && !surface.crs.is_known()) {
         console.warn("the source carries no CRS, so the raster has none, though --like " +
@@ -155,8 +201,8 @@ Outcome CommandGrid::run() {
     for (const std::string& warning : gradient_warnings(surface)) {
         console.warn(warning);
     }
-    options.metadata = output_metadata("grid", surface, triangulation, lines,
-                                       interpolation.canonical() + products.canonical());
+    options.metadata = output_metadata("grid", surface, triangulation, lines, reading_options(surface));
+    set_river_cells(surface, grid, options.gridding);
     options.progress = console.progress().stage(0.6, 1);
     const io::WrittenGrid written = write(surface, grid, targets, options);
     if (surface.conflicts) {

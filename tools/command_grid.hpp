@@ -38,8 +38,13 @@ class CommandGrid : public Command {
     ProductOptions products;
     OutputOptions output;
     TalkOptions talk;
+    std::string river_cells_text;
+    bool are_river_cells = true;  ///< after `setup`: cells that rivers pass get the rivers' elevations
 
   private:
+    /// The options that say how the surface is read.
+    [[nodiscard]] std::string reading_options(const Surface& surface) const;
+    void set_river_cells(Surface& surface, const GridGeometry& grid, GriddingOptions& gridding) const;
     [[nodiscard]] io::WriteGridOptions write_options() const;
     /// Throws before any work is done where something cannot be written, or would be over a source.
     void check_targets(std::span<const std::string> targets, const io::WriteGridOptions& options) const;

@@ -11,6 +11,7 @@
 #include "tinwright/io/gdal_session.hpp"
 #include "tinwright/mesh/mesh_walk.hpp"
 #include "tinwright/surface/breakline_distance.hpp"
+#include "tinwright/surface/facets.hpp"
 #include "tinwright/surface/locator.hpp"
 #include "tinwright/surface/sample_tree.hpp"
 #include "tinwright/surface/sharp_edges.hpp"
@@ -207,7 +208,8 @@ class Explainer {
             }
             options.method = method;
             options.threads = options_.threads;
-            const auto surface = make_interpolator(tin_, sharp_, options);
+            const auto surface =
+                keep_facets(tin_, make_interpolator(tin_, sharp_, options), surface_.is_water_face);
             const auto reader = surface->make_reader();
             ExplainedMethod explained{std::string(name), reader->read(place), {}};
             reader->find_weights(place, explained.weights);
