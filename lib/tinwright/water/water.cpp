@@ -11,7 +11,7 @@
 #include "tinwright/geometry/box.hpp"
 #include "tinwright/geometry/decimal.hpp"
 #include "tinwright/geometry/error.hpp"
-#include "tinwright/water/lakes.hpp"
+#include "tinwright/water/lake_levels.hpp"
 #include "tinwright/water/near_samples.hpp"
 #include "tinwright/water/reaches.hpp"
 #include "tinwright/water/river_findings.hpp"
@@ -92,7 +92,8 @@ class Leveler {
         : lines_(lines),
           options_(options),
           lattice_(shared_lattice(lines, samples)),
-          samples_(samples, lattice_) {
+          samples_(samples, lattice_),
+          lakes_(network_, lines, samples_, options, out_.report) {
         WaterReport& report = out_.report;
         report.shore_width = options.shore_width.value_or(choose_shore_width(samples, lines));
         report.river_width = options.river_width.value_or(report.shore_width);
@@ -103,14 +104,15 @@ class Leveler {
         network_ =
             make_water_network(lines_, lattice_, {out_.report.station_spacing, options_.station_spacing});
         report_progress(options_.progress, 0.2);
-        measure_lakes();
+        lakes_.measure();
         report_progress(options_.progress, 0.4);
-        elevations_ = measure_water(network_, lake_levels_, samples_, out_.report.river_width);
+        elevations_ = measure_water(network_, lakes_.levels(), samples_, out_.report.river_width);
         report_progress(options_.progress, 0.6);
         flow_ = find_flow(network_, elevations_, options_.flow);
         find_faults();
-        order_lakes();
-        look_at_shores();
+        lakes_.order(find_lake_falls(network_, flow_));
+        std::copy(lakes_.levels().begin(), lakes_.levels().end(), elevations_.begin());
+        out_.lifted = lakes_.look_at_shores();
         report_progress(options_.progress, 0.7);
         fit();
         report_progress(options_.progress, 0.9);
@@ -130,139 +132,6 @@ class Leveler {
         out_.report.findings.insert(out_.report.findings.end(), findings.begin(), findings.end());
     }
 
-    void measure_lakes() {
-        std::vector<MeasuredLake> measured;
-        for (const WaterPolygon& polygon : network_.lakes) {
-            LakeShape shape;
-            for (const std::uint32_t ring : polygon.rings) {
-                CleanLine line;
-                for (const std::uint32_t v : network_.chain(ring)) {
-                    line.keys.push_back(network_.key(v));
-                    line.z.push_back(0);
-                }
-                shape.lines.push_back(network_.lines[ring]);
-                shape.rings.push_back(std::move(line));
-            }
-            measured.push_back(measure_lake(shape, lines_, samples_, lattice_, options_.lake_level,
-                                            out_.report.shore_width));
-            const MeasuredLake& lake = measured.back();
-            if (lake.lake.is_own && lake.z_high - lake.z_low > options_.tolerance) {
-                WaterFinding finding = finding_at(Kind::LakeNotLevel, lake.lake);
-                finding.z = lake.z_high;
-                finding.other_z = lake.z_low;
-                finding.amount = lake.z_high - lake.z_low;
-                finding.is_repaired = true;
-                add(finding);
-            }
-        }
-        agree_on_levels(measured);
-        for (std::size_t i = 0; i < measured.size(); ++i) {
-            LakeLevel& lake = measured[i].lake;
-            lake.level = lake_levels_[network_.lake_node[i]];
-            out_.report.lakes.push_back(lake);
-            beside_.push_back(std::move(measured[i].beside));
-        }
-    }
-
-    void look_at_shores() {
-        for (std::size_t i = 0; i < beside_.size(); ++i) {
-            look_at_shore(out_.report.lakes[i], beside_[i]);
-        }
-        std::sort(out_.lifted.begin(), out_.lifted.end());
-        // Beside two lakes: the higher one counts.
-        std::reverse(out_.lifted.begin(), out_.lifted.end());
-        out_.lifted.erase(std::unique(out_.lifted.begin(), out_.lifted.end(),
-                                      [](const auto& a, const auto& b) { return a.first == b.first; }),
-                          out_.lifted.end());
-        std::reverse(out_.lifted.begin(), out_.lifted.end());
-    }
-
-    static WaterFinding finding_at(Kind kind, const LakeLevel& lake) {
-        WaterFinding finding;
-        finding.kind = kind;
-        finding.line = lake.line;
-        finding.location = lake.location;
-        return finding;
-    }
-
-    /// Lakes of one node get one level.
-    void agree_on_levels(const std::vector<MeasuredLake>& measured) {
-        lake_levels_.assign(network_.first_section, 0);
-        std::map<std::uint32_t, std::vector<std::size_t>> lakes_of;
-        for (std::size_t i = 0; i < measured.size(); ++i) {
-            lakes_of[network_.lake_node[i]].push_back(i);
-        }
-        for (const auto& [node, lakes] : lakes_of) {
-            std::vector<double> levels;
-            for (const std::size_t lake : lakes) {
-                levels.push_back(measured[lake].lake.level);
-            }
-            const auto [low, high] = std::minmax_element(levels.begin(), levels.end());
-            const LakeLevel& first = measured[lakes.front()].lake;
-            for (std::size_t k = 1; k < lakes.size(); ++k) {
-                WaterFinding finding = finding_at(Kind::LakesMeet, measured[lakes[k]].lake);
-                finding.line = first.line;
-                finding.other_line = measured[lakes[k]].lake.line;
-                finding.z = levels.front();
-                finding.other_z = levels[k];
-                const double off = std::abs(levels[k] - levels.front());
-                finding.amount = off > options_.tolerance ? off : 0;
-                finding.is_repaired = true;
-                add(finding);
-            }
-            const bool do_differ = *high - *low > options_.tolerance;
-            if (do_differ && options_.meeting_levels == CrossingPolicy::Error && !options_.keeps_faults) {
-                const LakeLevel& lowest =
-                    measured[lakes[static_cast<std::size_t>(low - levels.begin())]].lake;
-                const LakeLevel& highest =
-                    measured[lakes[static_cast<std::size_t>(high - levels.begin())]].lake;
-                throw BreaklineError("lakes that touch or overlap have different levels, " +
-                                         decimal_text(*low) + " and " + decimal_text(*high) + ", near " +
-                                         location_text(highest.location) +
-                                         "; give them one, or say which to take with --crossing-z "
-                                         "mean|first|min|max",
-                                     {lowest.line, highest.line});
-            }
-            lake_levels_[node] = choose_common(levels, do_differ);
-        }
-    }
-
-    [[nodiscard]] double choose_common(const std::vector<double>& levels, bool do_differ) const {
-        if (do_differ && options_.meeting_levels == CrossingPolicy::Mean) {
-            return choose_level({LevelRule::Kind::Mean, 0}, levels);
-        }
-        if (do_differ && options_.meeting_levels == CrossingPolicy::First) {
-            return levels.front();
-        }
-        if (do_differ && options_.meeting_levels == CrossingPolicy::Max) {
-            return *std::max_element(levels.begin(), levels.end());
-        }
-        return *std::min_element(levels.begin(), levels.end());
-    }
-
-    void look_at_shore(LakeLevel& lake, const std::vector<std::uint32_t>& beside) {
-        for (const std::uint32_t sample : beside) {
-            const double z = samples_.z(sample);
-            if (!(z < lake.level)) {
-                continue;
-            }
-            ++lake.samples_under;
-            WaterFinding finding = finding_at(Kind::ShoreUnderWater, lake);
-            finding.sample = sample;
-            finding.location = lattice_.position(samples_.key(sample));
-            finding.z = z;
-            finding.other_z = lake.level;
-            finding.amount = lake.level - z;
-            finding.is_repaired = options_.shore_clearance.has_value();
-            if (finding.amount > options_.tolerance) {
-                add(finding);
-            }
-            if (options_.shore_clearance) {
-                out_.lifted.emplace_back(sample, lake.level + *options_.shore_clearance);
-            }
-        }
-    }
-
     void find_faults() {
         const double tolerance = options_.tolerance;
         add(find_rises(network_, flow_, elevations_, tolerance));
@@ -275,35 +144,6 @@ class Leveler {
             for (const WaterFinding& finding : out_.report.findings) {
                 out_.report.rivers_turned += finding.kind == Kind::WrongDirection ? 1U : 0U;
             }
-        }
-    }
-
-    /// Lakes whose levels were measured come to be in the order of flow; those with a level of their own
-    /// stand.
-    void order_lakes() {
-        const std::vector<Fall> falls = find_lake_falls(network_, flow_);
-        const bool are_in_order = std::all_of(falls.begin(), falls.end(), [this](const Fall& fall) {
-            return elevations_[fall.upper] >= elevations_[fall.lower];
-        });
-        if (are_in_order) {
-            return;
-        }
-        std::vector<LevelNode> nodes(network_.first_section);
-        for (std::uint32_t node = 0; node < nodes.size(); ++node) {
-            nodes[node] = {elevations_[node], 0};
-        }
-        for (std::size_t i = 0; i < out_.report.lakes.size(); ++i) {
-            const LakeLevel& lake = out_.report.lakes[i];
-            LevelNode& node = nodes[network_.lake_node[i]];
-            node.weight += lake.shore_length;
-            if (lake.is_own) {
-                node.lowest = node.highest = node.target;
-            }
-        }
-        const LevelFit fitted = fit_levels(nodes, falls, RiverFit::Isotonic);
-        std::copy(fitted.levels.begin(), fitted.levels.end(), elevations_.begin());
-        for (std::size_t i = 0; i < out_.report.lakes.size(); ++i) {
-            out_.report.lakes[i].level = elevations_[network_.lake_node[i]];
         }
     }
 
@@ -489,13 +329,12 @@ class Leveler {
     Lattice lattice_;
     NearSamples samples_;
     WaterNetwork network_;
-    std::vector<double> lake_levels_;                 // of the nodes that are lakes
-    std::vector<std::vector<std::uint32_t>> beside_;  // of each lake: samples
-    std::vector<double> elevations_;                  // of all nodes: given or measured
+    Water out_;
+    LakeLevels lakes_;
+    std::vector<double> elevations_;  // of all nodes: given or measured
     WaterFlow flow_;
     std::vector<double> levels_;  // of all nodes
     std::vector<double> vertex_levels_;
-    Water out_;
 };
 
 }  // namespace
