@@ -7,8 +7,6 @@
 #include <tuple>
 #include <utility>
 
-#include <tbb/parallel_for.h>
-
 #include "tinwright/breaklines/near_lines.hpp"
 #include "tinwright/delaunay/border_points.hpp"
 #include "tinwright/delaunay/constrained_delaunay.hpp"
@@ -166,43 +164,9 @@ class Maker {
     // What counts for nothing, as water is there.
     void clear_water() {
         water_.emplace(noded_, lines_);
-        is_cleared_sample_.assign(sample_vertices_.keys.size(), 0);
-        is_cleared_vertex_.assign(noded_.keys.size(), 0);
-        if (water_->is_empty()) {
-            return;
-        }
-        tbb::parallel_for(std::size_t{0}, sample_vertices_.keys.size(), [this](std::size_t i) {
-            is_cleared_sample_[i] = water_->around(sample_vertices_.keys[i]) ? 1 : 0;
-        });
-        const auto is_cleared_line = [this](std::uint32_t line) {
-            return !is_ring(line) &&
-                   (lines_[line].role == LineRole::Breakline || lines_[line].role == LineRole::River);
-        };
-        std::vector<char> is_kept(noded_.keys.size());
-        std::vector<char> is_of_water(noded_.keys.size());
-        const auto is_cleared = [&](const NodedPiece& piece) {
-            if (is_cleared_line(piece.line)) {
-                return water_->around(piece).has_value();
-            }
-            is_kept[piece.a] = is_kept[piece.b] = 1;
-            if (is_water_line(piece.line)) {
-                is_of_water[piece.a] = is_of_water[piece.b] = 1;
-            }
-            return false;
-        };
-        result_.lines.cleared_pieces = std::erase_if(noded_.pieces, is_cleared);
-        for (std::uint32_t k = 0; k < noded_.keys.size(); ++k) {
-            if (is_of_water[k] != 0 || !water_->around(noded_.keys[k])) {
-                continue;
-            }
-            if (is_kept[k] == 0) {
-                is_cleared_vertex_[k] = 1;
-            } else {
-                on_water_.push_back(k);
-            }
-        }
-        result_.lines.cleared_samples = static_cast<std::size_t>(
-            std::count(is_cleared_sample_.begin(), is_cleared_sample_.end(), char{1}));
+        cleared_ = clear_areas(*water_, lines_, sample_vertices_.keys, noded_);
+        result_.lines.cleared_samples = cleared_.sample_count;
+        result_.lines.cleared_pieces = cleared_.piece_count;
     }
 
     [[nodiscard]] bool is_water_line(std::uint32_t number) const {
@@ -256,10 +220,10 @@ class Maker {
         std::size_t k = 0;
         auto border_point = border_points_.begin();
         for (;;) {
-            while (i < keys.size() && is_cleared_sample_[i] != 0) {
+            while (i < keys.size() && cleared_.samples[i] != 0) {
                 ++i;
             }
-            while (k < noded.size() && is_cleared_vertex_[k] != 0) {
+            while (k < noded.size() && cleared_.vertices[k] != 0) {
                 ++k;
             }
             const VertexId v{static_cast<std::uint32_t>(tin().keys.size())};
@@ -384,12 +348,12 @@ class Maker {
                 outside.push_back(v);
             }
         }
-        for (const std::uint32_t k : on_water_) {
+        for (const std::uint32_t k : cleared_.borders) {
             const Key2 key = noded_.keys[k];
             tin().z[vertex_of_[k].value] = water_->level(*water_->around(key), key);
         }
         for (std::uint32_t k = 0, i = 0; k < vertex_of_.size(); ++k) {
-            if (is_cleared_vertex_[k] != 0) {
+            if (cleared_.vertices[k] != 0) {
                 continue;
             }
             while (i < outside.size() && outside[i] < vertex_of_[k]) {
@@ -447,12 +411,10 @@ class Maker {
     std::vector<bool> is_on_ring_;           // each of the noded vertices
     std::vector<bool> has_water_;            // a line of water through each of the noded vertices
     std::optional<WaterAreas> water_;
-    std::vector<char> is_cleared_sample_;  // of the sample vertices: left out
-    std::vector<char> is_cleared_vertex_;  // of the noded vertices: left out
-    std::vector<std::uint32_t> on_water_;  // noded vertices of borders that have the water's elevation
-    std::vector<bool> is_draped_;          // each line, and the ring
-    std::vector<Key2> border_points_;      // vertices of draped borders, between those of their own
-    std::vector<VertexId> draped_;  // vertices whose elevation is yet to be taken from the samples' TIN
+    ClearedAreas cleared_;
+    std::vector<bool> is_draped_;      // each line, and the ring
+    std::vector<Key2> border_points_;  // vertices of draped borders, between those of their own
+    std::vector<VertexId> draped_;     // vertices whose elevation is yet to be taken from the samples' TIN
     std::vector<SampleMeeting> meetings_;
     ConstrainedTin result_;
 };

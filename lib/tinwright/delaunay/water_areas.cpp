@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <tbb/parallel_for.h>
+
 #include "tinwright/breaklines/segment_distance.hpp"
 #include "tinwright/geometry/predicates.hpp"
 
@@ -94,6 +96,45 @@ double WaterAreas::level(std::uint32_t polygon, Key2 key) {
         surface->drape.emplace(surface->keys, surface->z);
     }
     return surface->drape->at(key).z;
+}
+
+ClearedAreas clear_areas(const WaterAreas& areas, std::span<const Breakline> lines,
+                         std::span<const Key2> samples, NodedLines& noded) {
+    ClearedAreas cleared;
+    cleared.samples.assign(samples.size(), 0);
+    cleared.vertices.assign(noded.keys.size(), 0);
+    if (areas.is_empty()) {
+        return cleared;
+    }
+    tbb::parallel_for(std::size_t{0}, samples.size(),
+                      [&](std::size_t i) { cleared.samples[i] = areas.around(samples[i]) ? 1 : 0; });
+    cleared.sample_count =
+        static_cast<std::size_t>(std::count(cleared.samples.begin(), cleared.samples.end(), char{1}));
+    std::vector<char> is_kept(noded.keys.size());
+    std::vector<char> is_of_water(noded.keys.size());
+    cleared.piece_count = std::erase_if(noded.pieces, [&](const NodedPiece& piece) {
+        // Lines behind the given ones are borders too.
+        const LineRole role = piece.line < lines.size() ? lines[piece.line].role : LineRole::Hole;
+        if (role == LineRole::Breakline || role == LineRole::River) {
+            return areas.around(piece).has_value();
+        }
+        is_kept[piece.a] = is_kept[piece.b] = 1;
+        if (is_water_role(role)) {
+            is_of_water[piece.a] = is_of_water[piece.b] = 1;
+        }
+        return false;
+    });
+    for (std::uint32_t v = 0; v < noded.keys.size(); ++v) {
+        if (is_of_water[v] != 0 || !areas.around(noded.keys[v])) {
+            continue;
+        }
+        if (is_kept[v] == 0) {
+            cleared.vertices[v] = 1;
+        } else {
+            cleared.borders.push_back(v);
+        }
+    }
+    return cleared;
 }
 
 }  // namespace tinwright

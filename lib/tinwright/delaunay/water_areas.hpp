@@ -28,7 +28,9 @@ class WaterAreas {
 
     [[nodiscard]] bool is_empty() const { return polygons_.empty(); }
     /// Role and number (`Breakline::polygon`) of a polygon.
-    [[nodiscard]] std::pair<LineRole, std::uint32_t> polygon(std::uint32_t index) const { return polygons_[index]; }
+    [[nodiscard]] std::pair<LineRole, std::uint32_t> polygon(std::uint32_t index) const {
+        return polygons_[index];
+    }
     /// A polygon that has the key strictly inside: of several the first, as a number for `level`; keys on a
     /// polygon's ring are not inside it. Exact. O(sqrt n + k) in practice for k ring segments to the right.
     [[nodiscard]] std::optional<std::uint32_t> around(Key2 key) const { return find(twice(key)); }
@@ -59,6 +61,21 @@ class WaterAreas {
     std::optional<LineSegments> segments_;
     std::map<std::uint32_t, std::unique_ptr<Surface>> surfaces_;
 };
+
+/// What of samples and lines water takes the place of.
+struct ClearedAreas {
+    std::vector<char> samples;  ///< one a sample: whether it is left out
+    std::size_t sample_count = 0;
+    std::vector<char> vertices;  ///< one a noded vertex: likewise
+    std::size_t piece_count = 0;
+    std::vector<std::uint32_t> borders;  ///< noded vertices of borders that have the elevation of the water
+};
+
+/// Finds what is strictly inside lakes and banks, and takes the pieces of breaklines and rivers there out of
+/// `noded`. `samples`: keys on the lattice of `noded`. O((n + k) log n) in practice, parallel inside the
+/// caller's task arena.
+ClearedAreas clear_areas(const WaterAreas& areas, std::span<const Breakline> lines,
+                         std::span<const Key2> samples, NodedLines& noded);
 
 }  // namespace tinwright
 
