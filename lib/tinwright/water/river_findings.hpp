@@ -29,21 +29,6 @@ std::vector<WaterFinding> find_rings(const WaterNetwork& network, const WaterFlo
 std::vector<WaterFinding> find_dangling(const WaterNetwork& network, const WaterFlow& flow,
                                         NearSamples& samples, const RiverFindingOptions& options);
 
-/// RiverThroughLake: where rivers with z of their own meet lakes, and how they differ. `levels`: one a node.
-std::vector<WaterFinding> find_passages(const WaterNetwork& network, std::span<const double> levels,
-                                        double tolerance);
-
-/// From each lake to the lakes that water from it comes to next: nodes. O(lakes times the falls between
-/// them).
-std::vector<Fall> find_lake_falls(const WaterNetwork& network, const WaterFlow& flow);
-
-/// LakesOutOfOrder, by the falls. `levels`: those that lakes were given, one a node.
-std::vector<WaterFinding> find_disorder(const WaterNetwork& network, const WaterFlow& flow,
-                                        std::span<const double> levels, double tolerance);
-
-/// BanksNotLevel, one a section, and WaterOverlaps, one a pair.
-std::vector<WaterFinding> find_bank_faults(const WaterNetwork& network, double tolerance);
-
 }  // namespace tinwright
 
 #endif

@@ -11,6 +11,7 @@
 #include "tinwright/geometry/box.hpp"
 #include "tinwright/geometry/decimal.hpp"
 #include "tinwright/geometry/error.hpp"
+#include "tinwright/water/area_findings.hpp"
 #include "tinwright/water/lake_levels.hpp"
 #include "tinwright/water/near_samples.hpp"
 #include "tinwright/water/reaches.hpp"

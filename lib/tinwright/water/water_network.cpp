@@ -276,6 +276,45 @@ double WaterNetwork::distance(std::uint32_t a, std::uint32_t b) const {
     return std::sqrt(squared_distance(key(a), key(b))) * lattice.quantum();
 }
 
+WaterFinding make_finding(WaterFinding::Kind kind, const WaterNetwork& network, std::uint32_t line,
+                          std::uint32_t vertex) {
+    WaterFinding finding;
+    finding.kind = kind;
+    finding.line = network.lines[line];
+    finding.location = network.lattice.position(network.key(vertex));
+    return finding;
+}
+
+std::vector<std::uint32_t> find_node_vertices(const WaterNetwork& network) {
+    std::vector<std::uint32_t> vertex(network.node_count, kNoNode);
+    for (std::uint32_t v = 0; v < network.noded.keys.size(); ++v) {
+        const std::uint32_t node = network.node_of[v] != kNoNode      ? network.node_of[v]
+                                   : network.stand_of[v].a != kNoNode ? network.stand_of[v].nearest()
+                                                                      : kNoNode;
+        if (node != kNoNode && vertex[node] == kNoNode) {
+            vertex[node] = v;
+        }
+    }
+    return vertex;
+}
+
+std::vector<std::uint32_t> find_node_lines(const WaterNetwork& network) {
+    std::vector<std::uint32_t> line(network.node_count, kNoNode);
+    const auto set = [&line](std::uint32_t node, std::uint32_t number) {
+        line[node] = std::min(line[node], number);
+    };
+    for (std::uint32_t l = 0; l < network.prepared.size(); ++l) {
+        for (const std::uint32_t v : network.chain(l)) {
+            if (network.node_of[v] != kNoNode) {
+                set(network.node_of[v], l);
+            } else if (network.stand_of[v].a != kNoNode) {
+                set(network.stand_of[v].nearest(), l);
+            }
+        }
+    }
+    return line;
+}
+
 WaterNetwork make_water_network(std::span<const Breakline> lines, const Lattice& lattice,
                                 const NetworkOptions& options) {
     WaterNetwork network;

@@ -13,6 +13,7 @@
 #include "tinwright/delaunay/water_areas.hpp"
 #include "tinwright/geometry/lattice.hpp"
 #include "tinwright/water/banks.hpp"
+#include "tinwright/water/water_finding.hpp"
 
 /// How lakes, rivers and banks hang together. Private to the room of water.
 namespace tinwright {
@@ -90,6 +91,15 @@ struct WaterNetwork {
         return node_of[vertex] != kNoNode ? node_of[vertex] : stand_of[vertex].nearest();
     }
 };
+
+/// A finding at a vertex; `line`: number of a noded line.
+WaterFinding make_finding(WaterFinding::Kind kind, const WaterNetwork& network, std::uint32_t line,
+                          std::uint32_t vertex);
+
+/// A vertex at each node: of a lake or section one on a ring; kNoNode where there is none. O(n).
+std::vector<std::uint32_t> find_node_vertices(const WaterNetwork& network);
+/// The first noded line through each node, or kNoNode. O(n).
+std::vector<std::uint32_t> find_node_lines(const WaterNetwork& network);
 
 struct NetworkOptions {
     double river_spacing = 0;            ///< of stations on rivers without z, CRS units
