@@ -62,6 +62,9 @@ struct SurfaceGridder::State {
     [[nodiscard]] bool is_plain() const {
         return is_of_faces && options.products == std::vector{Product::Elevation};
     }
+    /// Puts `options.cells` into a band's elevations. `has_faces`: `face_of_cell` is the band's already.
+    template <class Value>
+    void set_cells(std::int64_t band, std::span<Value> values, Value nodata, bool has_faces);
     SurfaceReading read(Worker& worker, const SurfacePlace& place) const;
     [[nodiscard]] double value_of(Product product, const SurfaceReading& reading, const SurfacePlace& place,
                                   Worker& worker) const;
@@ -133,7 +136,9 @@ std::int64_t SurfaceGridder::State::fill(std::int64_t band, std::span<const std:
                                          Value nodata) {
     assert(values.size() == options.products.size());
     if (is_plain()) {
-        return converter.fill(band, values[0], nodata);
+        const std::int64_t covered = converter.fill(band, values[0], nodata);
+        set_cells(band, values[0], nodata, false);
+        return covered;
     }
     const auto [first_row, end_row] = converter.band_rows(band);
     const std::int64_t count = (end_row - first_row) * columns;
@@ -169,12 +174,39 @@ std::int64_t SurfaceGridder::State::fill(std::int64_t band, std::span<const std:
             }
         }
     });
-    for (std::size_t p = 0; is_of_faces && p < values.size(); ++p) {
+    for (std::size_t p = 0; p < values.size(); ++p) {
         if (options.products[p] == Product::Elevation) {
-            converter.fill(band, values[p], nodata);
+            if (is_of_faces) {
+                converter.fill(band, values[p], nodata);
+            }
+            set_cells(band, values[p], nodata, true);
         }
     }
     return covered;
+}
+
+template <class Value>
+void SurfaceGridder::State::set_cells(std::int64_t band, std::span<Value> values, Value nodata,
+                                      bool has_faces) {
+    const auto [first_row, end_row] = converter.band_rows(band);
+    const std::int64_t first = first_row * columns;
+    const std::int64_t end = end_row * columns;
+    const auto begin =
+        std::lower_bound(options.cells.begin(), options.cells.end(), first,
+                         [](const CellElevation& cell, std::int64_t sought) { return cell.cell < sought; });
+    for (auto cell = begin; cell != options.cells.end() && cell->cell < end; ++cell) {
+        const auto i = static_cast<std::size_t>(cell->cell - first);
+        const bool may_be_empty = values[i] == nodata || std::isnan(values[i]);
+        if (may_be_empty && !has_faces) {
+            // Or does the terrain have just that elevation?
+            face_of_cell.resize(static_cast<std::size_t>(end - first));
+            converter.fill_faces(band, face_of_cell);
+            has_faces = true;
+        }
+        if (!may_be_empty || face_of_cell[i] != kNoFace) {
+            values[i] = static_cast<Value>(cell->z);
+        }
+    }
 }
 
 std::string_view product_name(Product product) {

@@ -23,18 +23,23 @@ struct CellPassage {
     double end = 0;
 };
 
-/// Calls `visit` for the cells of the raster that a segment passes, from a to b; a point on the edge between
-/// cells belongs to the one to the right of it, or below. Each passage has its
-/// ends at the crossings of the edges, both of them the same number for the cells on both sides.
+/// Calls `visit` for the cells of the raster that a segment passes, from a to b. A point on the edge between
+/// cells belongs to the one to the right of it, or below, so that each point of the segment is in one passage
+/// but for their ends; where only one point of the segment belongs to a cell, `begin` and `end` are the same.
+/// Ends are at the crossings of the edges, the same number in the passages before and after. Nothing is
+/// visited outside of the raster. O(columns and rows passed).
 void visit_cells(Point2 a, Point2 b, const GridGeometry& grid,
                  const std::function<void(const CellPassage&)>& visit);
 
-/// The elevations of cells that rivers pass, by cell: the lowest that a river has in the cell, and never
-/// above any cell upstream of it (a bend that leaves a cell and comes back makes all cells between equal).
+/// The elevations of cells that rivers pass for more than a point, by cell: the lowest that a river has in
+/// the cell or in any cell upstream of it. So cells never rise along any way downstream, be they rounded to a
+/// narrower type or not; a bend that leaves a cell and comes back makes all cells between equal; and none is
+/// above the rivers in it.
 /// Rivers: edges of `tin` that a line of role River runs along, `is_river_line` telling which lines those are
-/// by the numbers of `tin.traces`; water runs from their higher to their lower end. Cells whose centre is on
+/// by the numbers of `tin.traces`; water runs from their higher to their lower end, and along level ones
+/// either way, so that all cells of a level reach are equal. Cells whose centre is on
 /// water (`is_water_face`, by face; may be empty) are left as they are. Cells whose centre is off the terrain
-/// are listed too. O(cells + edges log edges).
+/// are listed too. O(c log c), c: the cells passed and edges, and the water's faces.
 std::vector<CellElevation> find_river_cells(const Tin& tin, const std::vector<bool>& is_river_line,
                                             const std::vector<bool>& is_water_face, const GridGeometry& grid);
 
