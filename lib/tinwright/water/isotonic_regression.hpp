@@ -26,26 +26,27 @@ struct Fall {
 
 enum class RiverFit : std::uint8_t {
     Isotonic,  ///< least squares: lifts as well as digs
-    Min        ///< only digs: each level is the lowest target upstream of it
+    Min        ///< digs, and lifts only to a bound: each level is the lowest target upstream of it
 };
 
 struct LevelFit {
     std::vector<double> levels;  ///< one a node
     /// Nodes whose bounds cannot be kept together with all falls, ascending: their levels are at the bound,
-    /// and falls that end or start there may rise.
+    /// and falls that end or start there may rise. Given levels come first, other bounds give way to them.
     std::vector<std::uint32_t> beyond;
-    /// What these would have been without bounds of their own; one each.
+    /// What these would have been without bounds of their own; one each. Of given levels that contradict each
+    /// other: the nearest level that the others allow; the falls between them do not count for the rest.
     std::vector<double> wanted;
 };
 
 /// The levels within the bounds that satisfy all falls. Isotonic: those that minimise the sum over the nodes
-/// of weight times squared distance from the target; chains by pooling adjacent violators [ayer1955], what is
-/// left by dividing the nodes at thresholds, each division a minimum cut [picard1976; luss2012]. Min: the
-/// lowest target of each node and all upstream of it, raised where a bound of it or downstream asks for that.
-/// Nodes on a cycle of falls get one level. Every fall holds exactly, also after rounding to double
-/// precision, but for `beyond`. `falls`: any order, repeated or not. Does not depend on the order of the
-/// falls. Pooling is O(n); cuts touch only connected parts with violations that pooling leaves, O(n^2) each
-/// at worst and near-linear in practice.
+/// of weight times squared distance from the target; chains and trees by pooling adjacent violators
+/// [ayer1955], what is left by dividing the nodes at thresholds, each division a minimum cut [picard1976;
+/// luss2012]. Min: of the target of each node and the levels above it the lowest, raised where a bound of it
+/// or downstream asks for that. Nodes on a cycle of falls get one level, unless given levels contradict each
+/// other there. Every fall holds exactly, also after rounding to double precision, but for those of `beyond`.
+/// `falls`: any order, repeated or not; the result does not depend on it. O(n log n) for chains and trees;
+/// cuts touch only connected parts with violations that pooling leaves, near-linear in practice.
 LevelFit fit_levels(std::span<const LevelNode> nodes, std::span<const Fall> falls, RiverFit fit);
 
 }  // namespace tinwright

@@ -1,0 +1,293 @@
+#include "tinwright/water/level_division.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "tinwright/water/closure.hpp"
+
+namespace tinwright {
+
+namespace {
+
+constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+
+/// Pools that are fitted apart from all others.
+struct Part {
+    PooledFalls falls;
+    std::vector<std::uint32_t> members;  ///< of the pools that were there in the beginning
+    std::vector<std::uint32_t> pool_of;  ///< one a member
+};
+
+/// Numbers what is connected by falls that do not leave or enter a closure.
+std::vector<std::uint32_t> number_connected(const FallGraph& graph, const std::vector<bool>& is_inside,
+                                            std::uint32_t& count) {
+    std::vector<std::uint32_t> number(graph.size(), kNone);
+    std::vector<std::uint32_t> queue;
+    for (std::uint32_t start = 0; start < graph.size(); ++start) {
+        if (number[start] != kNone) {
+            continue;
+        }
+        number[start] = count;
+        queue.assign(1, start);
+        for (std::size_t i = 0; i < queue.size(); ++i) {
+            const std::uint32_t pool = queue[i];
+            for (const auto next : {graph.lowers(pool), graph.uppers(pool)}) {
+                for (const std::uint32_t neighbor : next) {
+                    if (number[neighbor] == kNone && is_inside[neighbor] == is_inside[pool]) {
+                        number[neighbor] = count;
+                        queue.push_back(neighbor);
+                    }
+                }
+            }
+        }
+        ++count;
+    }
+    return number;
+}
+
+/// The connected parts of what is inside and of what is not.
+std::vector<Part> divide(const Part& part, const std::vector<bool>& is_inside) {
+    const FallGraph& graph = part.falls.graph;
+    std::uint32_t count = 0;
+    const std::vector<std::uint32_t> number = number_connected(graph, is_inside, count);
+    std::vector<Part> parts(count, Part{{{}, FallGraph(0, {})}, {}, {}});
+    std::vector<std::uint32_t> new_pool(graph.size());
+    for (std::uint32_t pool = 0; pool < graph.size(); ++pool) {
+        auto& pools = parts[number[pool]].falls.pools;
+        new_pool[pool] = static_cast<std::uint32_t>(pools.size());
+        pools.push_back(part.falls.pools[pool]);
+    }
+    std::vector<std::vector<Fall>> falls(count);
+    for (std::uint32_t pool = 0; pool < graph.size(); ++pool) {
+        for (const std::uint32_t lower : graph.lowers(pool)) {
+            if (number[lower] == number[pool]) {
+                falls[number[pool]].push_back({new_pool[pool], new_pool[lower]});
+            }
+        }
+    }
+    for (std::size_t i = 0; i < part.members.size(); ++i) {
+        const std::uint32_t pool = part.pool_of[i];
+        parts[number[pool]].members.push_back(part.members[i]);
+        parts[number[pool]].pool_of.push_back(new_pool[pool]);
+    }
+    for (std::uint32_t i = 0; i < count; ++i) {
+        parts[i].falls.graph = FallGraph(parts[i].falls.pools.size(), falls[i]);
+    }
+    return parts;
+}
+
+/// Falls the other way, with levels of the other sign, numbered from the other end.
+PooledFalls turn_over(const PooledFalls& falls) {
+    const auto count = static_cast<std::uint32_t>(falls.pools.size());
+    PooledFalls turned{{falls.pools.rbegin(), falls.pools.rend()}, FallGraph(0, {})};
+    for (LevelPool& pool : turned.pools) {
+        pool.moment = -pool.moment;
+        pool.range = {-pool.range.highest, -pool.range.lowest};
+    }
+    std::vector<Fall> turned_falls;
+    for (std::uint32_t pool = count; pool-- > 0;) {
+        const auto uppers = falls.graph.uppers(pool);
+        for (auto upper = uppers.rbegin(); upper != uppers.rend(); ++upper) {
+            turned_falls.push_back({count - 1 - pool, count - 1 - *upper});
+        }
+    }
+    turned.graph = FallGraph(count, turned_falls);
+    return turned;
+}
+
+/// The level that a part has if it has one level, or one that divides it.
+struct Threshold {
+    double level = 0;
+    bool is_mean = true;  ///< and no range ends there
+};
+
+Threshold find_threshold(const std::vector<LevelPool>& pools) {
+    LevelPool all;
+    for (const LevelPool& pool : pools) {
+        all.join(pool);
+    }
+    const auto mean = static_cast<double>(all.moment / all.weight);
+    if (all.range.lowest < mean && mean < all.range.highest) {
+        return {mean, true};
+    }
+    return {all.range.lowest > all.range.highest ? all.range.lowest : all.level(), false};
+}
+
+/// What each pool gains by a level above a threshold instead of at it, for each unit of height at first; in
+/// integers, so that sums are exact.
+std::vector<Gain> find_gains(const std::vector<LevelPool>& pools, const Threshold& threshold) {
+    constexpr int kBits = 120;
+    std::vector<long double> rough(pools.size());
+    long double greatest = 0;
+    long double weight = 0;
+    for (std::size_t i = 0; i < pools.size(); ++i) {
+        rough[i] = pools[i].moment - pools[i].weight * static_cast<long double>(threshold.level);
+        greatest = std::max(greatest, std::abs(rough[i]));
+        weight += pools[i].weight;
+    }
+    std::vector<Gain> gains(pools.size(), 0);
+    if (greatest == 0) {
+        return gains;
+    }
+    const int scale = kBits - std::ilogb(greatest) - std::ilogb(static_cast<double>(pools.size())) - 2;
+    Gain sum = 0;
+    for (std::size_t i = 0; i < pools.size(); ++i) {
+        gains[i] = static_cast<Gain>(std::ldexp(rough[i], scale));
+        sum += gains[i];
+    }
+    if (threshold.is_mean) {
+        // A mean is rounded. What that makes of heavy pools may be more than light ones weigh, and these
+        // would get a wrong level: the sum is made the zero that it is.
+        std::size_t heaviest = 0;
+        const long double share = static_cast<long double>(sum) / weight;
+        for (std::size_t i = 0; i < pools.size(); ++i) {
+            const auto correction = static_cast<Gain>(share * pools[i].weight);
+            gains[i] -= correction;
+            sum -= correction;
+            heaviest = pools[i].weight > pools[heaviest].weight ? i : heaviest;
+        }
+        gains[heaviest] -= sum;
+    }
+    return gains;
+}
+
+/// Which pools have a level not below the threshold in the best levels. Those that have to be, or cannot be,
+/// by their ranges make no part of the cut.
+std::vector<bool> find_not_below(const PooledFalls& falls, const Threshold& threshold) {
+    std::vector<bool> is_inside(falls.pools.size());
+    std::vector<std::uint32_t> free;
+    std::vector<std::uint32_t> number(falls.pools.size(), kNone);
+    for (std::uint32_t pool = 0; pool < falls.pools.size(); ++pool) {
+        const LevelRange& range = falls.pools[pool].range;
+        is_inside[pool] = range.lowest >= threshold.level;
+        if (!is_inside[pool] && range.highest >= threshold.level) {
+            number[pool] = static_cast<std::uint32_t>(free.size());
+            free.push_back(pool);
+        }
+    }
+    const std::vector<Gain> all_gains = find_gains(falls.pools, threshold);
+    std::vector<Gain> gains;
+    std::vector<Fall> free_falls;
+    for (const std::uint32_t pool : free) {
+        gains.push_back(all_gains[pool]);
+        for (const std::uint32_t lower : falls.graph.lowers(pool)) {
+            if (number[lower] != kNone) {
+                free_falls.push_back({number[pool], number[lower]});
+            }
+        }
+    }
+    const std::vector<bool> closure =
+        find_largest_closure(FallGraph(free.size(), free_falls), std::move(gains));
+    for (std::size_t i = 0; i < free.size(); ++i) {
+        is_inside[free[i]] = closure[i];
+    }
+    return is_inside;
+}
+
+bool contains_all(const std::vector<bool>& is_inside) {
+    return std::find(is_inside.begin(), is_inside.end(), false) == is_inside.end();
+}
+
+class LevelDivision {
+  public:
+    explicit LevelDivision(std::size_t count) : levels_(count) {}
+
+    std::vector<double> run(PooledFalls falls) {
+        std::vector<std::uint32_t> numbers(falls.pools.size());
+        std::iota(numbers.begin(), numbers.end(), 0U);
+        Part whole{std::move(falls), numbers, numbers};
+        join_chains(whole);
+        push(divide(whole, std::vector<bool>(whole.falls.pools.size(), true)));
+        while (!parts_.empty()) {
+            Part part = std::move(parts_.back());
+            parts_.pop_back();
+            join_chains(part);
+            if (!is_settled(part)) {
+                cut(part);
+            }
+        }
+        return std::move(levels_);
+    }
+
+  private:
+    static void join_chains(Part& part) {
+        PooledChains chains = pool_chains(part.falls);
+        part.falls = std::move(chains.left);
+        for (std::uint32_t& pool : part.pool_of) {
+            pool = chains.pool_of[pool];
+        }
+    }
+
+    void push(std::vector<Part> parts) { std::move(parts.begin(), parts.end(), std::back_inserter(parts_)); }
+
+    template <class LevelOf>
+    void settle(const Part& part, const LevelOf& level_of) {
+        for (std::size_t i = 0; i < part.members.size(); ++i) {
+            levels_[part.members[i]] = level_of(part.pool_of[i]);
+        }
+    }
+
+    /// Settles a part without violations, or a tree.
+    bool is_settled(const Part& part) {
+        const auto& [pools, graph] = part.falls;
+        bool has_violation = false;
+        bool joins = false;
+        bool parts = false;
+        for (std::uint32_t pool = 0; pool < graph.size(); ++pool) {
+            for (const std::uint32_t lower : graph.lowers(pool)) {
+                has_violation = has_violation || pools[pool].level() < pools[lower].level();
+            }
+            joins = joins || graph.uppers(pool).size() > 1;
+            parts = parts || graph.lowers(pool).size() > 1;
+        }
+        if (!has_violation) {
+            settle(part, [&](std::uint32_t pool) { return pools[pool].level(); });
+        } else if (!parts) {
+            const std::vector<double> levels = fit_tree(part.falls);
+            settle(part, [&](std::uint32_t pool) { return levels[pool]; });
+        } else if (!joins) {
+            const std::vector<double> levels = fit_tree(turn_over(part.falls));
+            settle(part, [&](std::uint32_t pool) { return -levels[levels.size() - 1 - pool]; });
+        }
+        return !has_violation || !parts || !joins;
+    }
+
+    static std::vector<double> fit_tree(const PooledFalls& falls) {
+        std::vector<std::uint32_t> lower(falls.pools.size());
+        for (std::uint32_t pool = 0; pool < lower.size(); ++pool) {
+            const auto lowers = falls.graph.lowers(pool);
+            lower[pool] = lowers.empty() ? pool : lowers[0];
+        }
+        return pool_tree(falls.pools, lower);
+    }
+
+    void cut(const Part& part) {
+        const Threshold threshold = find_threshold(part.falls.pools);
+        std::vector<bool> is_inside = find_not_below(part.falls, threshold);
+        if (contains_all(is_inside) && !threshold.is_mean) {
+            // Where ranges end at the threshold, nothing below it does not mean nothing above it.
+            is_inside = find_not_below(turn_over(part.falls), {-threshold.level, false});
+            std::reverse(is_inside.begin(), is_inside.end());
+        }
+        if (contains_all(is_inside)) {
+            settle(part, [&](std::uint32_t) { return threshold.level; });
+        } else {
+            push(divide(part, is_inside));
+        }
+    }
+
+    std::vector<double> levels_;
+    std::vector<Part> parts_;
+};
+
+}  // namespace
+
+std::vector<double> divide_levels(PooledFalls falls) {
+    const std::size_t count = falls.pools.size();
+    return LevelDivision(count).run(std::move(falls));
+}
+
+}  // namespace tinwright
