@@ -19,8 +19,8 @@ struct FlowLink {
 };
 
 /// Nodes that water leaves the network at: of each connected part, the ends (nodes of one link) that are
-/// lower than their neighbour; where there is none, the lowest node, first of all an end. Ascending.
-/// `elevations`: one a node. O(n).
+/// lower than their neighbour; where there is none, the lowest node, of equals first of all an end. Nodes
+/// without a link to another are no part. Ascending. `elevations`: one a node. O(n).
 std::vector<std::uint32_t> find_outlets(std::span<const double> elevations, std::span<const FlowLink> links);
 
 /// Gives every link a direction such that water gets from everywhere to an outlet, over as low a way as there
@@ -38,8 +38,8 @@ std::vector<std::uint32_t> find_cycles(std::size_t node_count, std::span<const F
 
 /// Where water divides and comes together again: of each biconnected part of the network of falls (taken
 /// without directions) with two falls or more between different pairs of nodes, the node that the flow
-/// divides at, the most upstream one; parts that are nothing but a cycle of falls are left out. Repeated
-/// falls count once. Ascending, distinct. O(n).
+/// divides at, the most upstream one (of several the one with the smallest number); parts that are nothing
+/// but a cycle of falls are left out. Repeated falls count once. Ascending, distinct. O(n).
 std::vector<std::uint32_t> find_braids(std::size_t node_count, std::span<const Fall> falls);
 
 }  // namespace tinwright
