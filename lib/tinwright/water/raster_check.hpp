@@ -36,11 +36,15 @@ struct RasterCheckReport {
 };
 
 /// Along each reach, from its upper end: a cell is not above the lowest one before it by more than the
-/// tolerance; one finding a rise, from where the cells leave the lowest to where they come back to it. What
-/// is passed for less than a hundredth of a cell, cells whose centre is in a lake or between banks, and parts
-/// of reaches there, are passed over. In each lake: all cells whose centre is inside are equal.
+/// tolerance; one finding a rise, from where the cells leave the lowest to where they come back to it or the
+/// reach ends, `z` the highest of them. What
+/// is passed for less than a hundredth of a cell, cells whose centre is in a lake or between banks or less
+/// than a hundredth of a cell beside them, and parts
+/// of reaches there, are passed over. In each lake: all cells whose centre is inside, and not that near to
+/// the shore, are equal; `location` is the centre of the highest.
 /// `lines`: those that `water.origin` numbers; `water`: what `level_water` made of them, in the raster's CRS.
-/// O(cells of lakes and rivers).
+/// Throws UsageError for a tolerance below zero, Cancelled, and what `read` throws.
+/// O(cells of lakes and rivers, and edges of shores next to them).
 RasterCheckReport check_raster(const GridGeometry& grid, const ReadCells& read,
                                std::span<const Breakline> lines, const Water& water,
                                const RasterCheckOptions& options = {});
