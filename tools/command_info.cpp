@@ -31,8 +31,10 @@ Outcome CommandInfo::run() {
     Console console("info", talk);
     const SurfaceRequest request{.sources = sources, .crs = crs, .triangulation = triangulation};
     const bool is_tin = is_existing_tin(request);
-    const Surface surface =
-        is_tin ? read_existing_tin(request, console) : triangulate_sources(request, console);
+    Surface surface = is_tin ? read_existing_tin(request, console) : triangulate_sources(request, console);
+    if (!surface.flat_faces) {
+        surface.flat_faces = count_in_file(surface.tin, surface.metadata);
+    }
     const QualityReport quality = assess_quality(surface.tin);
     console.progress().finish();
 

@@ -50,6 +50,7 @@ void CommandTin::setup(const std::vector<std::string>& arguments) {
     lines.add_all_sources_to(*parser);
     triangulation.add_to(*parser, "convex");
     parser->get_option("--norm")->group("Options")->description("of lengths: l1|l2 (default)|linf|lp:P");
+    parser->get_option("--flat-faces")->group("Options");
     lines.add_constraints_to(*parser);
     lines.add_fitting_to(*parser);
     crs.add_to(*parser);
@@ -196,6 +197,10 @@ Outcome CommandTin::run_tin(Console& console) {
     if (surface.water) {
         const io::TinMetadata of_water = water_metadata(*surface.water);
         options.metadata.insert(options.metadata.end(), of_water.begin(), of_water.end());
+    }
+    if (surface.flat_faces) {
+        const io::TinMetadata flat = flat_faces_metadata(*surface.flat_faces);
+        options.metadata.insert(options.metadata.end(), flat.begin(), flat.end());
     }
     options.origins = std::move(surface.origins.vertices);
     options.lines = std::move(surface.origins.lines);

@@ -64,9 +64,7 @@ class Explainer {
     /// For places so far out that keys do not reach them; as `SampleTree` of vertices that were given, or of
     /// all where none was.
     [[nodiscard]] std::optional<VertexId> nearest_of_all(Point2 from) const {
-        const auto is_given = [](std::uint32_t sample) {
-            return sample != Tin::kNoSample && sample != Tin::kCrossing;
-        };
+        const auto is_given = [](std::uint32_t sample) { return sample < Tin::kInserted; };
         const bool is_any_given = std::any_of(tin_.sample.begin(), tin_.sample.end(), is_given);
         std::optional<VertexId> best;
         for (std::uint32_t v = 0; v < tin_.vertex_count(); ++v) {
@@ -147,6 +145,9 @@ class Explainer {
         }
         if (sample == Tin::kCrossing) {
             return "crossing";
+        }
+        if (sample == Tin::kInserted) {
+            return "inserted point";
         }
         return is_of_line(v) ? "line vertex" : "sample";
     }

@@ -108,6 +108,9 @@ void set_face_keys(JsonValue& json, const Surface& surface) {
     if (surface.water) {
         json.set("water", water_json(*surface.water));
     }
+    if (surface.flat_faces) {
+        json.set("flat_faces", flat_faces_json(*surface.flat_faces));
+    }
     if (!surface.criterion.name.empty()) {
         json.set("criterion", criterion_json(surface.criterion));
     }
@@ -330,6 +333,9 @@ std::string report_text(const JobReport& report, const Surface& surface, const R
             graph_line(*report.graph) + " on " + counted(surface.tin.vertex_count(), "vertex", "vertices"));
     } else {
         add("TIN", tin_line(report, surface));
+    }
+    if (surface.flat_faces) {
+        add("flat faces", flat_faces_line(*surface.flat_faces));
     }
     std::string label = "criterion";
     for (const std::string& line : criterion_lines(surface.criterion)) {

@@ -7,6 +7,7 @@
 
 #include "tinwright/geometry/decimal.hpp"
 
+#include "flat_faces_report.hpp"
 #include "option_values.hpp"
 
 namespace tinwright::tools {
@@ -116,6 +117,7 @@ void TriangulationOptions::add_to(CLI::App& parser, const std::string& default_d
     add_value(parser, "--domain", domain_text, "RULE",
               "convex|trimmed|concave:LENGTH (default " + default_domain + ")");
     add_value(parser, "--max-edge", max_edge_text, "LENGTH", "faces with a longer edge are voids");
+    add_value(parser, "--flat-faces", flat_faces_text, "HOW", "keep (default)|swap|insert relief")->group("");
     add_value(parser, "--duplicates", duplicates_text, "POLICY", "error|first|last|min|max|mean|median");
     add_value(parser, "--duplicate-tolerance", tolerance_text, "DZ", "z that differ less do not conflict");
 }
@@ -186,6 +188,11 @@ void TriangulationOptions::finish(DomainRule::Kind default_domain, DuplicatePoli
     if (!max_edge_text.empty()) {
         max_edge = positive_value("--max-edge", max_edge_text);
     }
+    flat_faces = treatment_value(flat_faces_text);
+    if (flat_faces == FlatFaces::Swap && !is_delaunay()) {
+        throw UsageError("--flat-faces swap does not go with --criterion " + criterion_name() +
+                         ", which decides those edges again: give --flat-faces insert, whose points stay");
+    }
     finish_samples(default_policy);
 }
 
@@ -203,12 +210,14 @@ void TriangulationOptions::finish_samples(DuplicatePolicy default_policy) {
 }
 
 std::string TriangulationOptions::option_for_faces() const {
-    const std::array<std::pair<const char*, bool>, 6> options = {{{"--criterion", !criterion_text.empty()},
-                                                                  {"--scope", !scope_text.empty()},
-                                                                  {"--delaunay-order", !order_text.empty()},
-                                                                  {"--budget", !budget_text.empty()},
-                                                                  {"--domain", !domain_text.empty()},
-                                                                  {"--max-edge", !max_edge_text.empty()}}};
+    const std::array<std::pair<const char*, bool>, 7> options = {
+        {{"--criterion", !criterion_text.empty()},
+         {"--scope", !scope_text.empty()},
+         {"--delaunay-order", !order_text.empty()},
+         {"--budget", !budget_text.empty()},
+         {"--domain", !domain_text.empty()},
+         {"--max-edge", !max_edge_text.empty()},
+         {"--flat-faces", !flat_faces_text.empty()}}};
     for (const auto& [name, is_given] : options) {
         if (is_given) {
             return name;
@@ -223,6 +232,9 @@ std::string TriangulationOptions::option_for_samples_only() const {
     }
     if (!domain_text.empty()) {
         return "--domain";
+    }
+    if (!flat_faces_text.empty()) {
+        return "--flat-faces";
     }
     if (!duplicates_text.empty()) {
         return "--duplicates";
@@ -321,6 +333,9 @@ std::string TriangulationOptions::canonical() const {
     text += " --domain " + domain_name();
     if (max_edge) {
         text += " --max-edge " + decimal_text(*max_edge);
+    }
+    if (flat_faces != FlatFaces::Keep) {
+        text += " --flat-faces " + treatment_name(flat_faces);
     }
     return text + " " + canonical_samples();
 }

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "tinwright/optimal/triangulate.hpp"
+#include "tinwright/water/flat_faces.hpp"
 
 #include "parse_options.hpp"
 
@@ -19,6 +20,7 @@ struct TriangulationOptions {
     std::string order_text;
     std::string domain_text;  ///< empty: the command's default
     std::string max_edge_text;
+    std::string flat_faces_text;
     std::string duplicates_text;
     std::string tolerance_text;
     std::string threads_text;
@@ -29,6 +31,7 @@ struct TriangulationOptions {
     DuplicateOptions duplicates;
     DomainRule domain;
     std::optional<double> max_edge;
+    FlatFaces flat_faces = FlatFaces::Keep;
     int threads = 0;  ///< 0: all processors
 
     /// `default_domain` is for the help text.
@@ -47,6 +50,8 @@ struct TriangulationOptions {
     /// `optimize_progress`: its answer ends the optimising, not the job.
     [[nodiscard]] TriangulateOptions library_options(const Progress& progress,
                                                      const Progress& optimize_progress) const;
+    /// Whether the faces are Delaunay but for what flat faces ask for.
+    [[nodiscard]] bool is_delaunay() const { return !optimize && !data_dependent; }
     /// "delaunay", "slope", ...
     [[nodiscard]] std::string criterion_name() const;
     /// "l2", "linf", ...; empty for a criterion that measures no edges.

@@ -32,6 +32,12 @@ io::TinMetadata output_metadata(const std::string& command, const Surface& surfa
     const io::TinMetadata of_water =
         surface.water ? water_metadata(*surface.water) : water_metadata_of(surface.metadata);
     metadata.insert(metadata.end(), of_water.begin(), of_water.end());
+    if (surface.flat_faces) {
+        const io::TinMetadata flat = flat_faces_metadata(*surface.flat_faces);
+        metadata.insert(metadata.end(), flat.begin(), flat.end());
+    } else if (const std::string flat = metadata_value(surface.metadata, kFlatFacesKey); !flat.empty()) {
+        metadata.emplace_back(kFlatFacesKey, flat);
+    }
     const std::string before = surface_options(surface, triangulation, lines);
     metadata.emplace_back("TINWRIGHT_OPTIONS", before.empty() ? reading : before + " " + reading);
     return metadata;

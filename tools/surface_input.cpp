@@ -198,9 +198,19 @@ Surface triangulate_sources(const SurfaceRequest& request, Console& console) {
     if (has_water) {
         surface.water = level_inputs(request, inputs, console.progress().stage(read_end, triangulate_at));
     }
+    if (const FlatFaces how = request.triangulation.flat_faces; how != FlatFaces::Keep) {
+        const bool keeps_delaunay = !request.triangulation.is_delaunay();
+        options.before_optimum = [&surface, how, keeps_delaunay](Tin& tin,
+                                                                 const std::vector<bool>& is_water) {
+            surface.flat_faces = {treatment_name(how), remove_flat_faces(tin, how, is_water, keeps_delaunay)};
+        };
+    }
     Triangulated made;
     run_located(inputs.samples, inputs.lines,
                 [&] { made = triangulate(inputs.samples.points, inputs.lines.lines, options); });
+    if (surface.flat_faces && surface.flat_faces->report.swapped + surface.flat_faces->report.inserted > 0) {
+        made.report.is_conforming = false;
+    }
     // What was done while reading comes first, as it was done first.
     std::vector<LineConflict>& conflicts = made.report.lines.conflicts;
     conflicts.insert(conflicts.begin(), inputs.lines.conflicts.begin(), inputs.lines.conflicts.end());

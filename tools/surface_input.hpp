@@ -15,6 +15,7 @@
 
 #include "console.hpp"
 #include "criterion_report.hpp"
+#include "flat_faces_report.hpp"
 #include "lines_report.hpp"
 #include "options_crs.hpp"
 #include "options_lines.hpp"
@@ -40,7 +41,8 @@ struct Surface {
     std::optional<TriangulateReport> report;  ///< only when triangulated
     CriterionReport criterion;
     LinesSummary lines;
-    TinOrigins origins;  ///< as a TIN file keeps them; of a TIN file: what it says
+    std::optional<FlatFacesSummary> flat_faces;  ///< where it was asked for, or to be told anyway
+    TinOrigins origins;                          ///< as a TIN file keeps them; of a TIN file: what it says
     /// What the sources that `origins` number from 1 are called; empty for a TIN file.
     std::vector<SourceName> source_names;
     /// For each line that the TIN's traces number: whether the surface may have a crease along it.

@@ -20,7 +20,8 @@ namespace {
 VertexId slow_nearest(const Tin& tin, const QueryLattice& lattice, Key2 at) {
     std::optional<VertexId> best;
     for (std::uint32_t v = 0; v < tin.vertex_count(); ++v) {
-        const bool is_made = tin.sample[v] == Tin::kNoSample || tin.sample[v] == Tin::kCrossing;
+        const bool is_made = tin.sample[v] == Tin::kNoSample || tin.sample[v] == Tin::kCrossing ||
+                             tin.sample[v] == Tin::kInserted;
         if (!is_made && (!best || compare_distances(at, lattice.scaled(tin.keys[v]), at,
                                                     lattice.scaled(tin.key(*best))) < 0)) {
             best = VertexId{v};

@@ -170,6 +170,7 @@ void TinFileReader::read_vertices(OGRLayer& layer) {
     const int source = definition.GetFieldIndex("source");
     const int feature_id = definition.GetFieldIndex("feature");
     const int crossing = definition.GetFieldIndex("crossing");
+    const int inserted = definition.GetFieldIndex("inserted");
     if (wkbFlatten(layer.GetGeomType()) != wkbPoint || steiner < 0) {
         return;  // somebody else's layer of that name
     }
@@ -188,8 +189,10 @@ void TinFileReader::read_vertices(OGRLayer& layer) {
         origins.source.resize(size);
         origins.feature.resize(size, -1);
         file_.is_crossing.resize(size);
+        file_.is_inserted.resize(size);
         file_.is_steiner[v] = feature->GetFieldAsInteger(steiner) != 0;
         file_.is_crossing[v] = crossing >= 0 && feature->GetFieldAsInteger(crossing) != 0;
+        file_.is_inserted[v] = inserted >= 0 && feature->GetFieldAsInteger(inserted) != 0;
         if (source >= 0 && feature->IsFieldSetAndNotNull(source)) {
             origins.source[v] = feature->GetFieldAsInteger(source);
             has_source = true;

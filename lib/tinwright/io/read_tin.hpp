@@ -26,6 +26,7 @@ struct TinFile {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> constrained_edges;
     std::vector<bool> is_steiner;   ///< one a vertex where the file says it; else empty
     std::vector<bool> is_crossing;  ///< of lines; likewise
+    std::vector<bool> is_inserted;  ///< into flat faces; likewise
     /// A line along an edge between two vertices, the smaller first.
     struct LineEdge {
         std::uint32_t a;
@@ -53,11 +54,11 @@ bool is_tin(const Source& source);
 TinFile read_tin_file(const Source& source, const Progress& progress = {});
 
 /// Puts a file's faces on a lattice as a TIN, vertices in curve order, domain and constrained edges kept.
-/// `sample[v]` is the index in `file.vertices` that vertex v has there, or kNoSample for a Steiner vertex and
-/// kCrossing for one made where lines cross; `traces` number `file.lines`.
-/// Faces may turn either way in the file and are all counter-clockwise in the TIN.
-/// Throws InputError, naming the feature and a coordinate, when the faces are no surface (zero area, two
-/// elevations at one location, an edge with more than two faces); `tinwright check` lists all of them.
+/// `sample[v]` is the index in `file.vertices` that vertex v has there, or kNoSample for a Steiner vertex,
+/// kCrossing for one made where lines cross and kInserted for one put into a flat face; `traces` number
+/// `file.lines`. Faces may turn either way in the file and are all counter-clockwise in the TIN. Throws
+/// InputError, naming the feature and a coordinate, when the faces are no surface (zero area, two elevations
+/// at one location, an edge with more than two faces); `tinwright check` lists all of them.
 Tin make_tin(const TinFile& file);
 
 }  // namespace tinwright::io

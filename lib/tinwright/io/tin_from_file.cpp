@@ -71,7 +71,11 @@ void TinMaker::number_vertices() {
             const bool is_crossing = i < file_.is_crossing.size() && file_.is_crossing[i];
             tin_.keys.push_back(keys[i]);
             tin_.z.push_back(p.z);
-            tin_.sample.push_back(is_steiner ? Tin::kNoSample : is_crossing ? Tin::kCrossing : i);
+            const bool is_inserted = i < file_.is_inserted.size() && file_.is_inserted[i];
+            tin_.sample.push_back(is_steiner    ? Tin::kNoSample
+                                  : is_crossing ? Tin::kCrossing
+                                  : is_inserted ? Tin::kInserted
+                                                : i);
         }
         vertex_of_[i] = static_cast<std::uint32_t>(tin_.keys.size() - 1);
     }

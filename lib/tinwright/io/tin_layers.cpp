@@ -230,11 +230,12 @@ std::size_t write_edges(TinDataset& dataset, const std::string& layer, const Tin
 
 std::size_t write_vertices(TinDataset& dataset, const std::string& layer, const Tin& tin,
                            const VertexOrigins& origins, const Tick& tick) {
-    constexpr std::array<TinField, 5> kFields = {{{"id", OFTInteger},
+    constexpr std::array<TinField, 6> kFields = {{{"id", OFTInteger},
                                                   {"steiner", OFTInteger},
                                                   {"source", OFTInteger},
                                                   {"feature", OFTInteger64},
-                                                  {"crossing", OFTInteger}}};
+                                                  {"crossing", OFTInteger},
+                                                  {"inserted", OFTInteger}}};
     TinLayer vertices = dataset.add_layer(layer, wkbPoint25D, kFields, tin);
     for (std::uint32_t v = 0; v < tin.vertex_count(); ++v) {
         const Point3 p = tin.position({v});
@@ -255,6 +256,7 @@ std::size_t write_vertices(TinDataset& dataset, const std::string& layer, const 
             vertices.set_null(3);
         }
         vertices.set(4, tin.sample[v] == Tin::kCrossing ? 1 : 0);
+        vertices.set(5, tin.sample[v] == Tin::kInserted ? 1 : 0);
         vertices.write();
         tick();
     }

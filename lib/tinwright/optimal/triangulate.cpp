@@ -105,7 +105,7 @@ HullAndDetail examine(const Tin& tin) {
     const bool must_measure = !tin.lattice.is_exact();
     const std::span<const Key2> keys = tin.keys;
     // Points made where lines cross may be as close to others as they like.
-    const auto is_given = [&tin](VertexId v) { return tin.sample[v.value] < Tin::kCrossing; };
+    const auto is_given = [&tin](VertexId v) { return tin.sample[v.value] < Tin::kInserted; };
     const auto examine_range = [&mesh, &is_given, keys, must_measure](
                                    const tbb::blocked_range<std::uint32_t>& range,
                                    const HullAndDetail& before) {
@@ -237,6 +237,9 @@ Triangulated triangulate_here(std::span<const Point3> samples, std::span<const B
         report.is_conforming = lines.empty() || is_conforming(tin);
     }
     apply_domain_rules(result, lines, terrain_ring, options);
+    if (options.before_optimum) {
+        options.before_optimum(tin, find_water_faces(tin, lines));
+    }
     report.constrain_seconds = seconds_since(domain_start);
     if (options.optimize) {
         report.optimize = optimize(tin, *options.optimize);

@@ -2,8 +2,10 @@
 #define TINWRIGHT_OPTIMAL_TRIANGULATE_HPP
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "tinwright/breaklines/breakline.hpp"
 #include "tinwright/breaklines/domain.hpp"
@@ -32,6 +34,11 @@ struct TriangulateOptions {
     std::optional<OptimizeOptions> optimize;
     /// Instead of the former: flips edges to where the elevations ask for less of a crease.
     std::optional<DataDependentOptions> data_dependent;
+    /// Called once the domain is decided and its border constrained, before anything is optimised: may flip
+    /// unconstrained edges and put vertices into terrain faces, after which the TIN must be constrained
+    /// Delaunay again if something is to be optimised. `is_water` is what `find_water_faces` says. Empty:
+    /// nothing is done.
+    std::function<void(Tin& tin, const std::vector<bool>& is_water)> before_optimum;
     int threads = 1;  ///< 0: all processors; the result does not depend on it
     Progress progress;
 };
@@ -69,9 +76,9 @@ struct Triangulated {
 /// `node_lines` sorts out; samples and points of lines have three distinct locations or more. Same set of
 /// samples and lines and same options, same TIN. Every line is in the result as a chain of constrained edges
 /// (`Tin::traces`). A sample on a line is treated as a duplicate of the line there.
-/// Order of work: Delaunay of all vertices, lines, Steiner points, boundary and holes, domain rule, optimum,
-/// voids. The area outside samples and lines with z of their own is no terrain, whatever is draped there.
-/// Throws InputError: too few locations, all of them collinear, and what
+/// Order of work: Delaunay of all vertices, lines, Steiner points, boundary and holes, domain rule,
+/// `before_optimum`, optimum, voids. The area outside samples and lines with z of their own is no terrain,
+/// whatever is draped there. Throws InputError: too few locations, all of them collinear, and what
 /// `make_sample_vertices`, `node_lines` and `optimize` throw; UsageError for options out of range; Cancelled.
 /// O(n log n); at most 110 bytes a sample at the peak, the samples themselves not counted. To be optimised
 /// costs extra, see `optimize`.

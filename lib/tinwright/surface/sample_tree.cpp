@@ -37,7 +37,7 @@ struct SampleTree::Search {
 
 SampleTree::SampleTree(const Tin& tin) : tin_(tin), lattice_(tin) {
     are_all_made_ = std::all_of(tin.sample.begin(), tin.sample.end(), [](std::uint32_t sample) {
-        return sample == Tin::kNoSample || sample == Tin::kCrossing;
+        return sample >= Tin::kInserted;
     });
     const std::size_t n = tin.vertex_count();
     std::vector<KeyBox> boxes((n + kRun - 1) / kRun, kEmptyBox);
@@ -60,8 +60,7 @@ SampleTree::SampleTree(const Tin& tin) : tin_(tin), lattice_(tin) {
 }
 
 bool SampleTree::is_given(VertexId v) const {
-    const std::uint32_t sample = tin_.sample[v.value];
-    return are_all_made_ || (sample != Tin::kNoSample && sample != Tin::kCrossing);
+    return are_all_made_ || tin_.sample[v.value] < Tin::kInserted;
 }
 
 void SampleTree::visit(std::size_t level, std::size_t node, Search& search) const {
