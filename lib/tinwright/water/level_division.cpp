@@ -19,24 +19,23 @@ struct Part {
     PooledFalls falls;
     std::vector<std::uint32_t> members;  ///< of the pools that were there in the beginning
     std::vector<std::uint32_t> pool_of;  ///< one a member
+    bool is_new = true;                  ///< falls that do not matter have not been left out yet
 };
 
-/// Numbers what is connected by falls that do not leave or enter a closure.
-std::vector<std::uint32_t> number_connected(const FallGraph& graph, const std::vector<bool>& is_inside,
-                                            std::uint32_t& count) {
+/// Numbers what is connected. `kNone`: not with any other.
+std::vector<std::uint32_t> number_connected(const FallGraph& graph, std::uint32_t& count) {
     std::vector<std::uint32_t> number(graph.size(), kNone);
     std::vector<std::uint32_t> queue;
     for (std::uint32_t start = 0; start < graph.size(); ++start) {
-        if (number[start] != kNone) {
+        if (number[start] != kNone || (graph.lowers(start).empty() && graph.uppers(start).empty())) {
             continue;
         }
         number[start] = count;
         queue.assign(1, start);
         for (std::size_t i = 0; i < queue.size(); ++i) {
-            const std::uint32_t pool = queue[i];
-            for (const auto next : {graph.lowers(pool), graph.uppers(pool)}) {
+            for (const auto next : {graph.lowers(queue[i]), graph.uppers(queue[i])}) {
                 for (const std::uint32_t neighbor : next) {
-                    if (number[neighbor] == kNone && is_inside[neighbor] == is_inside[pool]) {
+                    if (number[neighbor] == kNone) {
                         number[neighbor] = count;
                         queue.push_back(neighbor);
                     }
@@ -48,35 +47,79 @@ std::vector<std::uint32_t> number_connected(const FallGraph& graph, const std::v
     return number;
 }
 
-/// The connected parts of what is inside and of what is not.
-std::vector<Part> divide(const Part& part, const std::vector<bool>& is_inside) {
-    const FallGraph& graph = part.falls.graph;
+/// The connected parts of two pools or more; what is single is left to `settle`, called with a member and
+/// its pool.
+template <class Settle>
+std::vector<Part> part_connected(const Part& whole, const Settle& settle) {
+    const auto& [pools, graph] = whole.falls;
     std::uint32_t count = 0;
-    const std::vector<std::uint32_t> number = number_connected(graph, is_inside, count);
+    const std::vector<std::uint32_t> number = number_connected(graph, count);
     std::vector<Part> parts(count, Part{{{}, FallGraph(0, {})}, {}, {}});
     std::vector<std::uint32_t> new_pool(graph.size());
     for (std::uint32_t pool = 0; pool < graph.size(); ++pool) {
-        auto& pools = parts[number[pool]].falls.pools;
-        new_pool[pool] = static_cast<std::uint32_t>(pools.size());
-        pools.push_back(part.falls.pools[pool]);
+        if (number[pool] != kNone) {
+            auto& new_pools = parts[number[pool]].falls.pools;
+            new_pool[pool] = static_cast<std::uint32_t>(new_pools.size());
+            new_pools.push_back(pools[pool]);
+        }
     }
     std::vector<std::vector<Fall>> falls(count);
     for (std::uint32_t pool = 0; pool < graph.size(); ++pool) {
         for (const std::uint32_t lower : graph.lowers(pool)) {
-            if (number[lower] == number[pool]) {
-                falls[number[pool]].push_back({new_pool[pool], new_pool[lower]});
-            }
+            falls[number[pool]].push_back({new_pool[pool], new_pool[lower]});
         }
     }
-    for (std::size_t i = 0; i < part.members.size(); ++i) {
-        const std::uint32_t pool = part.pool_of[i];
-        parts[number[pool]].members.push_back(part.members[i]);
-        parts[number[pool]].pool_of.push_back(new_pool[pool]);
+    for (std::size_t i = 0; i < whole.members.size(); ++i) {
+        const std::uint32_t pool = whole.pool_of[i];
+        if (number[pool] == kNone) {
+            settle(whole.members[i], pools[pool]);
+        } else {
+            parts[number[pool]].members.push_back(whole.members[i]);
+            parts[number[pool]].pool_of.push_back(new_pool[pool]);
+        }
     }
     for (std::uint32_t i = 0; i < count; ++i) {
         parts[i].falls.graph = FallGraph(parts[i].falls.pools.size(), falls[i]);
     }
     return parts;
+}
+
+/// Leaves out falls, all but those that `keeps` wants.
+template <class Keeps>
+void keep_falls(FallGraph& graph, const Keeps& keeps) {
+    std::vector<Fall> kept;
+    for (std::uint32_t upper = 0; upper < graph.size(); ++upper) {
+        for (const std::uint32_t lower : graph.lowers(upper)) {
+            if (keeps(upper, lower)) {
+                kept.push_back({upper, lower});
+            }
+        }
+    }
+    graph = FallGraph(graph.size(), kept);
+}
+
+/// Leaves out falls that hold by themselves. The best level of a pool is not below the lowest that any pool
+/// upstream of it would have alone: were it, it could be raised to that, all such pools at a time, and be
+/// nearer to its targets. Likewise it is not above the highest of those downstream. Without a fall
+/// these limits are no wider, so that all falls whose ends are kept apart by them can go at once.
+void drop_idle_falls(PooledFalls& falls) {
+    const std::size_t count = falls.pools.size();
+    std::vector<double> lowest_above(count);
+    std::vector<double> highest_below(count);
+    for (std::uint32_t pool = 0; pool < count; ++pool) {
+        lowest_above[pool] = highest_below[pool] = falls.pools[pool].level();
+        for (const std::uint32_t upper : falls.graph.uppers(pool)) {
+            lowest_above[pool] = std::min(lowest_above[pool], lowest_above[upper]);
+        }
+    }
+    for (auto pool = static_cast<std::uint32_t>(count); pool-- > 0;) {
+        for (const std::uint32_t lower : falls.graph.lowers(pool)) {
+            highest_below[pool] = std::max(highest_below[pool], highest_below[lower]);
+        }
+    }
+    keep_falls(falls.graph, [&](std::uint32_t upper, std::uint32_t lower) {
+        return lowest_above[upper] < highest_below[lower];
+    });
 }
 
 /// Falls the other way, with levels of the other sign, numbered from the other end.
@@ -198,14 +241,15 @@ class LevelDivision {
     std::vector<double> run(PooledFalls falls) {
         std::vector<std::uint32_t> numbers(falls.pools.size());
         std::iota(numbers.begin(), numbers.end(), 0U);
-        Part whole{std::move(falls), numbers, numbers};
-        join_chains(whole);
-        push(divide(whole, std::vector<bool>(whole.falls.pools.size(), true)));
+        parts_.push_back({std::move(falls), numbers, numbers});
         while (!parts_.empty()) {
             Part part = std::move(parts_.back());
             parts_.pop_back();
             join_chains(part);
-            if (!is_settled(part)) {
+            if (part.is_new) {
+                drop_idle_falls(part.falls);
+                push_connected(part, false);
+            } else if (!is_tree(part)) {
                 cut(part);
             }
         }
@@ -221,7 +265,14 @@ class LevelDivision {
         }
     }
 
-    void push(std::vector<Part> parts) { std::move(parts.begin(), parts.end(), std::back_inserter(parts_)); }
+    void push_connected(const Part& whole, bool are_new) {
+        auto parts = part_connected(
+            whole, [&](std::uint32_t member, const LevelPool& pool) { levels_[member] = pool.level(); });
+        for (Part& part : parts) {
+            part.is_new = are_new;
+            parts_.push_back(std::move(part));
+        }
+    }
 
     template <class LevelOf>
     void settle(const Part& part, const LevelOf& level_of) {
@@ -230,29 +281,23 @@ class LevelDivision {
         }
     }
 
-    /// Settles a part without violations, or a tree.
-    bool is_settled(const Part& part) {
-        const auto& [pools, graph] = part.falls;
-        bool has_violation = false;
+    /// Settles a part in which water never divides, or never comes together.
+    bool is_tree(const Part& part) {
+        const FallGraph& graph = part.falls.graph;
         bool joins = false;
-        bool parts = false;
+        bool divides = false;
         for (std::uint32_t pool = 0; pool < graph.size(); ++pool) {
-            for (const std::uint32_t lower : graph.lowers(pool)) {
-                has_violation = has_violation || pools[pool].level() < pools[lower].level();
-            }
             joins = joins || graph.uppers(pool).size() > 1;
-            parts = parts || graph.lowers(pool).size() > 1;
+            divides = divides || graph.lowers(pool).size() > 1;
         }
-        if (!has_violation) {
-            settle(part, [&](std::uint32_t pool) { return pools[pool].level(); });
-        } else if (!parts) {
+        if (!divides) {
             const std::vector<double> levels = fit_tree(part.falls);
             settle(part, [&](std::uint32_t pool) { return levels[pool]; });
         } else if (!joins) {
             const std::vector<double> levels = fit_tree(turn_over(part.falls));
             settle(part, [&](std::uint32_t pool) { return -levels[levels.size() - 1 - pool]; });
         }
-        return !has_violation || !parts || !joins;
+        return !divides || !joins;
     }
 
     static std::vector<double> fit_tree(const PooledFalls& falls) {
@@ -264,7 +309,7 @@ class LevelDivision {
         return pool_tree(falls.pools, lower);
     }
 
-    void cut(const Part& part) {
+    void cut(Part& part) {
         const Threshold threshold = find_threshold(part.falls.pools);
         std::vector<bool> is_inside = find_not_below(part.falls, threshold);
         if (contains_all(is_inside) && !threshold.is_mean) {
@@ -275,7 +320,10 @@ class LevelDivision {
         if (contains_all(is_inside)) {
             settle(part, [&](std::uint32_t) { return threshold.level; });
         } else {
-            push(divide(part, is_inside));
+            keep_falls(part.falls.graph, [&](std::uint32_t upper, std::uint32_t lower) {
+                return is_inside[upper] == is_inside[lower];
+            });
+            push_connected(part, true);
         }
     }
 
