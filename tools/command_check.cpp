@@ -241,10 +241,12 @@ void CommandCheck::repair(CheckedLines& checked, const Sorted& sorted, const Tar
     LineRepair repaired = repair_lines_on_samples(checked.lines, checked.samples, options);
     note_actions(repaired.found.conflicts, repaired.left.conflicts);
     const io::Crs& working = checked.samples.crs.is_known() ? checked.samples.crs : checked.lines.crs;
+    OutputFolder folder(targets.folder);
     for (const std::string& written :
-         write_repair(repaired, checked.lines, sorted.lines, plan, working, output.overwrite)) {
+         write_repair(repaired.lines, checked.lines, sorted.lines, plan, working, output.overwrite)) {
         console.say("tinwright check: wrote " + written + "\n");
     }
+    folder.keep();
     for (const RepairPlan::File& file : plan.files) {
         outputs.push_back(file.target);
     }

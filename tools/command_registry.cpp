@@ -9,6 +9,7 @@
 #include "command_contour.hpp"
 #include "command_explain.hpp"
 #include "command_grid.hpp"
+#include "command_hydro.hpp"
 #include "command_info.hpp"
 #include "command_sample.hpp"
 #include "command_tin.hpp"
@@ -30,6 +31,7 @@ const std::array kCommands{
                  &make_command<CommandContour>},
     CommandEntry{"sample", "reads a surface at points or along lines", &make_command<CommandSample>},
     CommandEntry{"explain", "tells why a surface is as it is at one place", &make_command<CommandExplain>},
+    CommandEntry{"hydro", "checks lakes, rivers and banks, or puts them right", &make_command<CommandHydro>},
     CommandEntry{"info", "tells what samples or a TIN are like", &make_command<CommandInfo>},
     CommandEntry{"check", "audits TIN files", &make_command<CommandCheck>},
 };

@@ -12,13 +12,6 @@ namespace tinwright::tools {
 
 namespace {
 
-constexpr auto kCrossingPolicies =
-    std::to_array<std::pair<std::string_view, CrossingPolicy>>({{"error", CrossingPolicy::Error},
-                                                                {"mean", CrossingPolicy::Mean},
-                                                                {"first", CrossingPolicy::First},
-                                                                {"min", CrossingPolicy::Min},
-                                                                {"max", CrossingPolicy::Max}});
-
 constexpr auto kConstraints =
     std::to_array<std::pair<std::string_view, bool>>({{"constrained", false}, {"conforming", true}});
 

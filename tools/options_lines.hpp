@@ -1,8 +1,11 @@
 #ifndef TINWRIGHT_TOOLS_OPTIONS_LINES_HPP
 #define TINWRIGHT_TOOLS_OPTIONS_LINES_HPP
 
+#include <array>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "tinwright/io/read_lines.hpp"
@@ -12,6 +15,14 @@
 #include "parse_options.hpp"
 
 namespace tinwright::tools {
+
+/// Names of policies, as `--crossing-z` takes them.
+inline constexpr auto kCrossingPolicies =
+    std::to_array<std::pair<std::string_view, CrossingPolicy>>({{"error", CrossingPolicy::Error},
+                                                                {"mean", CrossingPolicy::Mean},
+                                                                {"first", CrossingPolicy::First},
+                                                                {"min", CrossingPolicy::Min},
+                                                                {"max", CrossingPolicy::Max}});
 
 /// Sources of lines, and how lines are fitted together and into the TIN. Water is lines, too.
 struct LineOptions {

@@ -34,32 +34,6 @@ std::string stem_of(const std::string& file) {
 
 bool is_virtual(const std::string& folder) { return folder.starts_with("/vsi"); }
 
-/// A folder that is there for the files in it, and goes with them when writing fails.
-class OutputFolder {
-  public:
-    explicit OutputFolder(std::string folder) : folder_(std::move(folder)) {
-        std::error_code error;
-        if (!is_virtual(folder_) && !std::filesystem::create_directories(folder_, error) && error) {
-            throw IoError("cannot make the folder " + io::quoted(folder_) + ": " + error.message());
-        }
-        is_new_ = !is_virtual(folder_) && std::filesystem::is_empty(folder_, error);
-    }
-    ~OutputFolder() {
-        if (is_new_ && !is_kept_) {
-            std::error_code ignored;  // there is nothing else that could be done
-            std::filesystem::remove(folder_, ignored);
-        }
-    }
-    OutputFolder(const OutputFolder&) = delete;
-    OutputFolder& operator=(const OutputFolder&) = delete;
-    void keep() { is_kept_ = true; }
-
-  private:
-    std::string folder_;
-    bool is_new_ = false;
-    bool is_kept_ = false;
-};
-
 /// The samples' Delaunay TIN, asked in CRS units.
 class SampleDrape {
   public:
@@ -101,8 +75,23 @@ bool needs_drape(const io::Lines& lines) {
 
 }  // namespace
 
+OutputFolder::OutputFolder(std::string folder) : folder_(std::move(folder)) {
+    std::error_code error;
+    if (!is_virtual(folder_) && !std::filesystem::create_directories(folder_, error) && error) {
+        throw IoError("cannot make the folder " + io::quoted(folder_) + ": " + error.message());
+    }
+    is_new_ = !is_virtual(folder_) && std::filesystem::is_empty(folder_, error);
+}
+
+OutputFolder::~OutputFolder() {
+    if (is_new_ && !is_kept_) {
+        std::error_code ignored;  // there is nothing else that could be done
+        std::filesystem::remove(folder_, ignored);
+    }
+}
+
 RepairPlan plan_repair(const io::Lines& lines, const std::string& folder, bool overwrite,
-                       std::span<const io::Source> sources) {
+                       std::span<const io::Source> sources, const std::string& taken) {
     std::error_code ignored;  // of a folder that is not there
     const bool is_there = is_virtual(folder) || std::filesystem::exists(folder, ignored);
     if (is_there && !is_virtual(folder) && !std::filesystem::is_directory(folder, ignored)) {
@@ -113,7 +102,7 @@ RepairPlan plan_repair(const io::Lines& lines, const std::string& folder, bool o
     plan.folder = folder;
     std::vector<std::string> files;
     std::vector<std::set<std::string>> layers;
-    std::set<std::string> stems;
+    std::set<std::string> stems{taken};
     for (std::size_t i = 0; i < lines.slices.size(); ++i) {
         const io::LineSlice& slice = lines.slices[i];
         const auto known = std::find(files.begin(), files.end(), slice.file);
@@ -145,11 +134,10 @@ LineRepair repair_lines_on_samples(const io::Lines& lines, const io::Samples& sa
     return repair_lines(lines.lines, samples.points, options);
 }
 
-std::vector<std::string> write_repair(const LineRepair& repair, const io::Lines& lines,
+std::vector<std::string> write_repair(const RepairedLines& repaired, const io::Lines& lines,
                                       std::span<const io::LineSource> sources, const RepairPlan& plan,
                                       const io::Crs& crs, bool overwrite) {
     std::vector<std::string> report;
-    OutputFolder folder(plan.folder);
     for (const RepairPlan::File& file : plan.files) {
         std::vector<io::ChangedLines> layers;
         for (std::size_t i = 0; i < file.slices.size(); ++i) {
@@ -159,7 +147,7 @@ std::vector<std::string> write_repair(const LineRepair& repair, const io::Lines&
                 changed.source.layer = slice.layer;
             }
             for (std::size_t line = slice.first; line < slice.first + slice.count; ++line) {
-                changed.curves[{lines.parts[line].feature, lines.parts[line].part}] = repair.lines[line];
+                changed.curves[{lines.parts[line].feature, lines.parts[line].part}] = repaired[line];
             }
             layers.push_back(std::move(changed));
         }
@@ -171,7 +159,6 @@ std::vector<std::string> write_repair(const LineRepair& repair, const io::Lines&
                                                    : std::string()));
         }
     }
-    folder.keep();
     return report;
 }
 

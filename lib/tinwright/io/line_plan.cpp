@@ -32,6 +32,22 @@ bool holds_lines(OGRLayer& layer) {
     return feature && feature->GetGeometryRef() != nullptr && feature->GetGeometryRef()->getDimension() > 0;
 }
 
+bool holds_polygon_type(OGRwkbGeometryType type) {
+    return OGR_GT_IsSubClassOf(type, wkbSurface) != 0 || OGR_GT_IsSubClassOf(type, wkbMultiSurface) != 0;
+}
+
+bool holds_polygons(OGRLayer& layer) {
+    const OGRwkbGeometryType type = wkbFlatten(layer.GetGeomType());
+    if (type == wkbUnknown || type == wkbGeometryCollection) {
+        layer.ResetReading();
+        const std::unique_ptr<OGRFeature> feature(layer.GetNextFeature());
+        layer.ResetReading();
+        return feature && feature->GetGeometryRef() != nullptr &&
+               feature->GetGeometryRef()->getDimension() > 1;
+    }
+    return holds_polygon_type(type);
+}
+
 /// Fills z and sharpness into the plan for a layer, as the source's keys say.
 void plan_attributes(LinePlan& plan, const VectorLayer& layer, const Source& source) {
     const std::string numeric = layer.numeric_fields();
@@ -63,6 +79,10 @@ void check_geometry_type(const LinePlan& plan, OGRLayer& layer) {
     if (type == wkbPoint || type == wkbMultiPoint) {
         throw InputError(plan.where + ": has " + OGRGeometryTypeToName(type) +
                          " features, no lines or polygons");
+    }
+    if (plan.role == LineRole::River && holds_polygon_type(type)) {
+        throw InputError(plan.where + ": has " + OGRGeometryTypeToName(type) +
+                         " features, and rivers are lines; polygons go with --banks or --lakes");
     }
     const bool has_z = OGR_GT_HasZ(declared) != 0 || plan.z_field >= 0 || plan.z_constant || plan.is_draped;
     if (type != wkbUnknown && !has_z && !plan.may_lack_z && !plan.keeps_faults) {
@@ -111,6 +131,13 @@ bool has_lines(const Source& source) {
         are_lines = are_lines && (!is_spatial || holds_lines(*layer));
     }
     return spatial > 0 && are_lines;
+}
+
+bool has_polygons(const Source& source) {
+    const GdalMessages messages;
+    const OpenedSource opened = open_source(source);
+    const VectorLayer layer(*opened.dataset, source, "file " + quoted(source.path), wanted_lines());
+    return holds_polygons(layer.layer());
 }
 
 }  // namespace tinwright::io

@@ -93,6 +93,10 @@ Lines read_lines(std::span<const LineSource> sources, const ReadLinesOptions& op
 /// when it cannot be opened.
 bool has_lines(const Source& source);
 
+/// Of a source that `has_lines`: whether these are polygons, by the declared type of the layer, or where that
+/// leaves it open by the first feature. Throws IoError when it cannot be opened.
+bool has_polygons(const Source& source);
+
 }  // namespace tinwright::io
 
 #endif
