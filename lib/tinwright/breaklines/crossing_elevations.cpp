@@ -4,6 +4,7 @@
 #include <cmath>
 #include <compare>
 #include <cstddef>
+#include <iterator>
 
 namespace tinwright {
 namespace {
@@ -90,22 +91,25 @@ double CrossingElevations::slack(std::span<const LineVisit> visits) const {
 }
 
 MeetingElevation CrossingElevations::meet(std::span<const LineVisit> visits, std::uint32_t vertex) {
-    of_water_.clear();
+    int rank = 0;
     for (const LineVisit& visit : visits) {
-        if (is_water(visit) && !std::isnan(elevation(visit, vertex))) {
-            of_water_.push_back(visit);
+        if (rank_of(visit) > rank && !std::isnan(elevation(visit, vertex))) {
+            rank = rank_of(visit);
         }
     }
-    if (of_water_.empty() || of_water_.size() == visits.size()) {
+    if (rank == 0) {
         return meet_all(visits, vertex);
     }
+    of_water_.clear();
+    std::copy_if(visits.begin(), visits.end(), std::back_inserter(of_water_),
+                 [&](const LineVisit& visit) { return rank_of(visit) == rank; });
     MeetingElevation met = meet_all(of_water_, vertex);
     if (met.is_clash) {
         return met;
     }
     Range all;
     for (const LineVisit& visit : visits) {
-        const double z = is_water(visit) ? met.z : elevation(visit, vertex);
+        const double z = rank_of(visit) > 0 ? met.z : elevation(visit, vertex);
         if (!std::isnan(z)) {
             all.add(z, &visit);
         }

@@ -36,7 +36,7 @@ class CrossingElevations {
     /// Chooses from what all lines say. They clash if points differ by more than the tolerance, or any by
     /// more than that and what comes of rounding: of arithmetic, and of locations. Without a clash it is the
     /// mean of the lines, or of the points where the rest differs by rounding only.
-    /// Where one of them is water, only water has a say.
+    /// Where one of them is water, only water has a say, and rivers have none where they meet other water.
     [[nodiscard]] MeetingElevation meet(std::span<const LineVisit> visits, std::uint32_t vertex);
 
   private:
@@ -47,8 +47,11 @@ class CrossingElevations {
     [[nodiscard]] double z_of_point(std::uint32_t line, std::uint32_t point) const {
         return lines_[line].points[point - points_.start[line]].z;
     }
-    [[nodiscard]] bool is_water(const LineVisit& visit) const {
-        return is_water_role(lines_[visit.line].role);
+    /// Whose elevation counts where lines meet: shores, banks and sections before rivers, those before the
+    /// rest.
+    [[nodiscard]] int rank_of(const LineVisit& visit) const {
+        const LineRole role = lines_[visit.line].role;
+        return role == LineRole::River ? 1 : is_water_role(role) ? 2 : 0;
     }
     [[nodiscard]] MeetingElevation meet_all(std::span<const LineVisit> visits, std::uint32_t vertex);
     [[nodiscard]] double slack(std::span<const LineVisit> visits) const;
