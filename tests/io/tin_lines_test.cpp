@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <map>
 #include <optional>
 #include <tuple>
@@ -7,6 +8,7 @@
 #include <gdal_priv.h>
 #include <ogrsf_frmts.h>
 
+#include "tinwright/breaklines/domain.hpp"
 #include "tinwright/io/read_tin.hpp"
 #include "tinwright/io/write_tin.hpp"
 #include "tinwright/optimal/triangulate.hpp"
@@ -100,6 +102,51 @@ std::map<EdgeKey, LineOrigin> lines_of(const Tin& tin, const std::vector<LineOri
         }
     }
     return found;
+}
+
+/// A lake with an island and a breakline all along its shore, banks with a section, a river, a breakline that
+/// the river follows halfway.
+const std::vector<Breakline>& water_lines() {
+    static const std::vector<Breakline> lines = [] {
+        const std::vector<Point3> shore = {{20, 20, 5}, {45, 22, 5}, {40, 45, 5}, {22, 40, 5}, {20, 20, 5}};
+        return std::vector<Breakline>{
+            {shore, LineRole::Breakline},
+            {shore, LineRole::Lake, true, 3},
+            {{{28, 28, 5}, {34, 28, 5}, {31, 35, 5}, {28, 28, 5}}, LineRole::Lake, true, 3},
+            {{{60, 10, 8}, {70, 10, 8}, {72, 90, 2}, {60, 90, 2}, {60, 10, 8}}, LineRole::Bank, true, 4},
+            {{{70, 10, 8}, {60, 90, 2}}, LineRole::Section, true, 4},
+            {{{5, 80, 9}, {30, 60, 7}, {60, 90, 2}}, LineRole::River},
+            {{{10, 50, 8}, {30, 60, 7}, {60, 90, 2}}, LineRole::Breakline}};
+    }();
+    return lines;
+}
+
+Made tin_with_water(std::uint64_t seed) {
+    Random random(seed);
+    std::vector<Point3> samples = {{0, 0, 20}, {100, 0, 20}, {100, 100, 20}, {0, 100, 20}};
+    for (int i = 0; i < 60; ++i) {
+        const double x = 0.01 * static_cast<double>(random.integer(0, 10000));
+        samples.push_back({x, 0.01 * static_cast<double>(random.integer(0, 10000)),
+                           10 + 0.01 * static_cast<double>(random.integer(0, 500))});
+    }
+    TriangulateOptions options;
+    options.duplicates.policy = DuplicatePolicy::Mean;
+    Made made{triangulate(samples, water_lines(), options).tin, {}};
+    for (std::size_t i = 0; i < water_lines().size(); ++i) {
+        made.lines.push_back({water_lines()[i].role, true, 1, static_cast<std::int64_t>(i)});
+    }
+    return made;
+}
+
+/// The faces that are chosen, as positions, sorted.
+std::vector<std::array<Corner, 3>> faces_of(const Tin& tin, const std::vector<bool>& is_chosen) {
+    Tin some = tin;
+    for (std::uint32_t f = 0; f < some.mesh.slot_count(); ++f) {
+        if (!is_chosen[f] && !some.mesh.is_ghost({f})) {
+            some.mesh.set_terrain({f}, false);
+        }
+    }
+    return terrain_of(some);
 }
 
 WriteTinOptions options_for(const Made& made) {
@@ -249,5 +296,81 @@ TEST_SUITE("io/tin_lines") {
         const TinFile file = read_tin_file(parse_source(folder.file("t.gpkg")));
         CHECK(constrained_of(make_tin(file)) == constrained_of(made.tin));
         CHECK(file.lines.empty());
+    }
+
+    TEST_CASE("water comes back: which faces it is, and the roles of its lines before all others") {
+        for (int seed = 1; seed <= tinwright_tests::cases(3); ++seed) {
+            for (const char* const name :
+                 {"t.gpkg", "t.sqlite", "t.gml", "t.shp", "t.fgb", "t.csv", "t.geojson"}) {
+                CAPTURE(seed);
+                CAPTURE(std::string(name));
+                const Made made = tin_with_water(static_cast<std::uint64_t>(seed));
+                const std::vector<bool> is_water = find_water_faces(made.tin, water_lines());
+                const std::vector<std::array<Corner, 3>> expected = faces_of(made.tin, is_water);
+                REQUIRE(expected.size() > 6);
+                WriteTinOptions options = options_for(made);
+                options.is_water_face = is_water;
+                const TemporaryFolder folder;
+                const WrittenTin written = write_tin(made.tin, Crs(), folder.file(name), options);
+                const TinFile file = read_tin_file(parse_source(folder.file(name)));
+                const Tin back = make_tin(file);
+                const std::vector<bool> is_water_back = water_faces_of(file, back);
+                REQUIRE(is_water_back.size() == back.mesh.slot_count());
+                if (std::string(name) == "t.gml" || std::string(name) == "t.geojson") {
+                    CHECK(faces_of(back, is_water_back).size() ==
+                          expected.size());  // coordinates are rounded
+                } else {
+                    CHECK(faces_of(back, is_water_back) == expected);
+                }
+                const bool has_layers = written.layers.size() == 3;
+                CHECK(written.warnings.empty() == (has_layers && std::string(name) != "t.gml"));
+                std::map<LineRole, std::size_t> roles;
+                for (const LineTrace& trace : back.traces) {
+                    ++roles[file.lines[trace.line].role];
+                }
+                CHECK(roles.size() == (has_layers ? 5 : 0));
+                CHECK(roles[LineRole::Section] == (has_layers ? 1 : 0));
+                // The breakline along the whole of the lake's shore is told of nowhere.
+                CHECK(roles[LineRole::Breakline] == (has_layers ? 1 : 0));
+                WriteTinOptions again;
+                again.metadata = options.metadata;
+                again.lines = file.lines;
+                again.is_water_face = is_water_back;
+                write_tin(back, Crs(), folder.file(std::string("again_") + name), again);
+                const TinFile second = read_tin_file(parse_source(folder.file(std::string("again_") + name)));
+                CHECK(second.is_water == file.is_water);
+                CHECK(second.lines.size() == file.lines.size());
+            }
+        }
+    }
+
+    TEST_CASE("there is a field water only where there is water, and one geometry for all faces loses it") {
+        const Made made = tin_with_water(1);
+        const TemporaryFolder folder;
+        WriteTinOptions options = options_for(made);
+        options.is_water_face.assign(made.tin.mesh.slot_count(), false);
+        write_tin(made.tin, Crs(), folder.file("dry.gpkg"), options);
+        const TinFile dry = read_tin_file(parse_source(folder.file("dry.gpkg")));
+        CHECK(dry.is_water.empty());
+        CHECK(water_faces_of(dry, make_tin(dry)).empty());
+        const auto has_field = [&](const char* name) {
+            const GDALDatasetUniquePtr dataset(GDALDataset::Open(folder.file(name).c_str(), GDAL_OF_VECTOR));
+            REQUIRE(dataset);
+            return dataset->GetLayerByName("faces")->GetLayerDefn()->GetFieldIndex("water") >= 0;
+        };
+        CHECK_FALSE(has_field("dry.gpkg"));
+        options.is_water_face = find_water_faces(made.tin, water_lines());
+        CHECK(write_tin(made.tin, Crs(), folder.file("wet.gpkg"), options).warnings.empty());
+        CHECK(has_field("wet.gpkg"));
+        CHECK(write_tin(made.tin, Crs(), folder.file("wet.fgb"), options).warnings ==
+              std::vector<std::string>{
+                  "driver \"FlatGeobuf\" does not keep which edges are rivers: rasters of the "
+                  "file do not follow them"});
+        options.geometry = WriteTinOptions::Geometry::Tin;
+        CHECK(
+            write_tin(made.tin, Crs(), folder.file("one.gpkg"), options).warnings ==
+            std::vector<std::string>{"with --geometry tin the file does not keep which faces are water: read "
+                                     "back, smooth methods take them for terrain"});
+        CHECK(read_tin_file(parse_source(folder.file("one.gpkg"))).is_water.empty());
     }
 }

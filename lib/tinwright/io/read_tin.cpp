@@ -122,7 +122,8 @@ void TinFileReader::keep_fields(OGRLayer& layer, std::initializer_list<const cha
 
 void TinFileReader::read_faces() {
     const int mark_field = faces_.GetLayerDefn()->GetFieldIndex("constr");
-    keep_fields(faces_, {"constr"});
+    const int water_field = faces_.GetLayerDefn()->GetFieldIndex("water");
+    keep_fields(faces_, {"constr", "water"});
     const GIntBig expected = faces_.GetFeatureCount(FALSE);
     if (expected > 0) {
         file_.face_ids.reserve(static_cast<std::size_t>(expected));
@@ -147,6 +148,9 @@ void TinFileReader::read_faces() {
             file_.face_ids.push_back(feature->GetFID());
             if (mark_field >= 0) {
                 marks_.push_back(static_cast<unsigned char>(feature->GetFieldAsInteger(mark_field) & 7));
+            }
+            if (water_field >= 0) {
+                file_.is_water.push_back(feature->GetFieldAsInteger(water_field) != 0);
             }
         }
         if (++count % 4096 == 0) {

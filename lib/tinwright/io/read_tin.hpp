@@ -22,6 +22,7 @@ struct TinFile {
     std::vector<Point3> vertices;
     std::vector<std::uint32_t> corners;  ///< 3 a face, as written
     std::vector<std::int64_t> face_ids;  ///< feature id of each face
+    std::vector<bool> is_water;          ///< one a face where the file says it; else empty
     /// Vertex pairs, the smaller first, sorted.
     std::vector<std::pair<std::uint32_t, std::uint32_t>> constrained_edges;
     std::vector<bool> is_steiner;   ///< one a vertex where the file says it; else empty
@@ -60,6 +61,10 @@ TinFile read_tin_file(const Source& source, const Progress& progress = {});
 /// InputError, naming the feature and a coordinate, when the faces are no surface (zero area, two elevations
 /// at one location, an edge with more than two faces); `tinwright check` lists all of them.
 Tin make_tin(const TinFile& file);
+
+/// Which face slots of `tin`, made of `file`, are on a lake or between banks; empty where the file does not
+/// say.
+std::vector<bool> water_faces_of(const TinFile& file, const Tin& tin);
 
 }  // namespace tinwright::io
 

@@ -181,4 +181,12 @@ void TinMaker::trace_lines() {
 
 Tin make_tin(const TinFile& file) { return TinMaker(file).make(); }
 
+std::vector<bool> water_faces_of(const TinFile& file, const Tin& tin) {
+    std::vector<bool> is_water = file.is_water;
+    if (!is_water.empty()) {
+        is_water.resize(tin.mesh.slot_count());  // faces have the file's order, then come ghosts
+    }
+    return is_water;
+}
+
 }  // namespace tinwright::io

@@ -51,7 +51,14 @@ Incline incline_of(const Tin& tin, const std::array<VertexId, 3>& v) {
 
 int as_int(VertexId v) { return static_cast<int>(v.value); }
 
-// The first line along an edge, by source and feature.
+// Which of two lines along an edge is told: one of water rather, for it is read from the file again; then by
+// source and feature.
+bool goes_first(const LineOrigin& a, const LineOrigin& b) {
+    return std::tuple(!is_water_role(a.role), a.source, a.feature) <
+           std::tuple(!is_water_role(b.role), b.source, b.feature);
+}
+
+// The first line along an edge.
 std::optional<LineOrigin> find_line(const Tin& tin, std::span<const LineOrigin> lines, VertexId a,
                                     VertexId b) {
     const auto first =
@@ -65,7 +72,7 @@ std::optional<LineOrigin> find_line(const Tin& tin, std::span<const LineOrigin> 
             continue;
         }
         const LineOrigin& line = lines[trace->line];
-        if (!found || std::tie(line.source, line.feature) < std::tie(found->source, found->feature)) {
+        if (!found || goes_first(line, *found)) {
             found = line;
         }
     }
@@ -112,16 +119,19 @@ void for_each_edge(const TriangleMesh& mesh, const Visit& visit) {
 
 }  // namespace
 
-std::size_t write_faces(TinDataset& dataset, const std::string& layer, const Tin& tin, const Tick& tick) {
-    constexpr std::array<TinField, 8> kFields = {{{"id", OFTInteger},
+std::size_t write_faces(TinDataset& dataset, const std::string& layer, const Tin& tin,
+                        const std::vector<bool>& is_water_face, const Tick& tick) {
+    constexpr std::array<TinField, 9> kFields = {{{"id", OFTInteger},
                                                   {"a", OFTInteger},
                                                   {"b", OFTInteger},
                                                   {"c", OFTInteger},
                                                   {"constr", OFTInteger},
                                                   {"slope", OFTReal},
                                                   {"aspect", OFTReal},
-                                                  {"area", OFTReal}}};
-    TinLayer faces = dataset.add_layer(layer, wkbPolygon25D, kFields, tin);
+                                                  {"area", OFTReal},
+                                                  {"water", OFTInteger}}};
+    const std::span<const TinField> used = std::span(kFields).first(is_water_face.empty() ? 8 : 9);
+    TinLayer faces = dataset.add_layer(layer, wkbPolygon25D, used, tin);
     auto& polygon = faces.geometry<OGRPolygon>();
     polygon.addRingDirectly(new OGRLinearRing);
     for (std::uint32_t f = 0; f < tin.mesh.slot_count(); ++f) {
@@ -155,6 +165,9 @@ std::size_t write_faces(TinDataset& dataset, const std::string& layer, const Tin
             faces.set(6, incline.aspect_deg);
         }
         faces.set(7, incline.area);
+        if (!is_water_face.empty()) {
+            faces.set(8, is_water_face[f] ? 1 : 0);
+        }
         faces.write();
         tick();
     }

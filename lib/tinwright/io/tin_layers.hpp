@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <functional>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "tinwright/io/tin_dataset.hpp"
 
@@ -13,10 +15,12 @@ namespace tinwright::io {
 
 using Tick = std::function<void()>;
 
-std::size_t write_faces(TinDataset& dataset, const std::string& layer, const Tin& tin, const Tick& tick);
+/// `is_water_face`: by slot; empty: no field `water`.
+std::size_t write_faces(TinDataset& dataset, const std::string& layer, const Tin& tin,
+                        const std::vector<bool>& is_water_face, const Tick& tick);
 std::size_t write_surface(TinDataset& dataset, const std::string& layer, const Tin& tin, const Tick& tick);
 /// All edges of terrain faces, or the constrained ones only. Of several lines along an edge the first by
-/// source and feature is told.
+/// source and feature is told, lines of water before others.
 std::size_t write_edges(TinDataset& dataset, const std::string& layer, const Tin& tin,
                         std::span<const LineOrigin> lines, bool constrained_only, const Tick& tick);
 std::size_t write_vertices(TinDataset& dataset, const std::string& layer, const Tin& tin,

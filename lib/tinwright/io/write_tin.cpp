@@ -73,6 +73,11 @@ TinMetadata counts_of(const Tin& tin) {
             {"TINWRIGHT_FACES", std::to_string(tin.mesh.count_terrain())}};
 }
 
+bool has_water(const WriteTinOptions& options) {
+    return std::find(options.is_water_face.begin(), options.is_water_face.end(), true) !=
+           options.is_water_face.end();
+}
+
 /// Writes one dataset at `path`; messages name `target`.
 WrittenTin write_dataset(const Tin& tin, const Crs& crs, const TinDriver& driver, const std::string& path,
                          const std::string& target, const WriteTinOptions& options) {
@@ -83,6 +88,7 @@ WrittenTin write_dataset(const Tin& tin, const Crs& crs, const TinDriver& driver
     FeatureProgress progress(options.progress, count_features(tin, driver, options.geometry));
     const Tick tick = [&progress] { progress(); };
     TinDataset dataset(driver, path, target, crs, options, counts_of(tin));
+    const std::vector<bool> none;
     written.layers.push_back(layer);
     switch (options.geometry) {
         case Geometry::Edges:
@@ -95,7 +101,8 @@ WrittenTin write_dataset(const Tin& tin, const Crs& crs, const TinDriver& driver
             written.features = write_surface(dataset, layer, tin, tick);
             break;
         case Geometry::Polygon:
-            written.features = write_faces(dataset, layer, tin, tick);
+            written.features =
+                write_faces(dataset, layer, tin, has_water(options) ? options.is_water_face : none, tick);
             break;
     }
     const bool is_surface = options.geometry == Geometry::Polygon || options.geometry == Geometry::Tin;
@@ -194,6 +201,7 @@ Kept probe(const Tin& tin, const Crs& crs, const TinDriver& driver, const std::s
     quiet.progress = nullptr;
     quiet.origins = {};
     quiet.lines = {};
+    quiet.is_water_face = {};
     Kept kept;
     const GdalMessages messages;
     VSIMkdir(folder.c_str(), 0755);
@@ -289,6 +297,18 @@ std::vector<std::string> warnings_for(const Tin& tin, const Kept& kept, const Ti
     if (has_smooth_line && !driver.has_layers && options.geometry != WriteTinOptions::Geometry::Edges) {
         warnings.push_back("driver " + quoted(driver.name) +
                            " does not keep which lines are smooth: read back, all are sharp");
+    }
+    if (has_water(options) && options.geometry == Geometry::Tin) {
+        warnings.emplace_back(
+            "with --geometry tin the file does not keep which faces are water: read back, smooth methods "
+            "take "
+            "them for terrain");
+    }
+    const bool has_river = std::any_of(options.lines.begin(), options.lines.end(),
+                                       [](const LineOrigin& line) { return line.role == LineRole::River; });
+    if (has_river && !driver.has_layers && options.geometry != Geometry::Edges) {
+        warnings.push_back("driver " + quoted(driver.name) +
+                           " does not keep which edges are rivers: rasters of the file do not follow them");
     }
     if (driver.significant_digits > 0 && needs_more_digits(tin, driver.significant_digits)) {
         warnings.push_back("driver " + quoted(driver.name) + " writes coordinates with " +

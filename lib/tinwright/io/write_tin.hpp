@@ -45,6 +45,8 @@ struct WriteTinOptions {
     VertexOrigins origins;
     /// Of each line that `Tin::traces` number; nothing is written of lines beyond its end.
     std::vector<LineOrigin> lines;
+    /// By face slot: on a lake or between banks. Empty, or nowhere true: the file does not speak of water.
+    std::vector<bool> is_water_face;
     Progress progress;
 };
 
