@@ -7,6 +7,8 @@ namespace tinwright {
 
 namespace {
 
+constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+
 /// Push and relabel, the highest label first. Gains are pushed from node to node: up a fall as much as one
 /// likes, down it what was pushed up before. A node with a loss left is a sink for so much.
 ///
@@ -21,6 +23,9 @@ class GainFlow {
           label_(graph.size()),
           way_starts_(graph.size() + 1, 0),
           next_(graph.size()),
+          first_(graph.size(), kNone),
+          after_(graph.size(), kNone),
+          before_(graph.size(), kNone),
           buckets_(graph.size() + 1) {
         for (std::uint32_t node = 0; node < graph.size(); ++node) {
             way_starts_[node + 1] = way_starts_[node] + graph.uppers(node).size() + graph.lowers(node).size();
@@ -52,6 +57,7 @@ class GainFlow {
             }
             const std::uint32_t node = buckets_[highest_].back();
             buckets_[highest_].pop_back();
+            // A node may have got another label since, or have been taken out of another bucket.
             if (label_[node] == highest_ && gains_[node] > 0) {
                 discharge(node);
                 if (work_ > 8 * (flow_.size() + graph_.size())) {
@@ -89,14 +95,52 @@ class GainFlow {
         }
     }
 
+    /// For a node that is in no list.
+    void set_label(std::uint32_t node, std::uint32_t label) {
+        label_[node] = label;
+        if (label == unreachable()) {
+            return;
+        }
+        top_ = std::max(top_, label);
+        before_[node] = kNone;
+        after_[node] = first_[label];
+        if (first_[label] != kNone) {
+            before_[first_[label]] = node;
+        }
+        first_[label] = node;
+    }
+
+    void take_from_list(std::uint32_t node) {
+        if (before_[node] == kNone) {
+            first_[label_[node]] = after_[node];
+        } else {
+            after_[before_[node]] = after_[node];
+        }
+        if (after_[node] != kNone) {
+            before_[after_[node]] = before_[node];
+        }
+    }
+
+    /// Without nodes of one label those above it do not get to any loss: a push goes down by one.
+    void give_up_above(std::uint32_t label) {
+        for (; top_ > label; --top_) {
+            for (std::uint32_t node = first_[top_]; node != kNone; node = after_[node]) {
+                label_[node] = unreachable();
+            }
+            first_[top_] = kNone;
+        }
+    }
+
     /// Sets all labels to what they are at most.
     void relabel_all() {
         work_ = 0;
         std::fill(label_.begin(), label_.end(), unreachable());
+        std::fill(first_.begin(), first_.end(), kNone);
+        top_ = 0;
         std::vector<std::uint32_t> queue;
         for (std::uint32_t node = 0; node < graph_.size(); ++node) {
             if (gains_[node] < 0) {
-                label_[node] = 0;
+                set_label(node, 0);
                 queue.push_back(node);
             }
         }
@@ -107,7 +151,7 @@ class GainFlow {
                 // The way from there is this one's reverse: up, when this one is down.
                 const bool is_way_open = !is_up(node, way) || flow_[way] > 0;
                 if (is_way_open && label_[from] == unreachable()) {
-                    label_[from] = label_[node] + 1;
+                    set_label(from, label_[node] + 1);
                     queue.push_back(from);
                 }
             }
@@ -150,8 +194,13 @@ class GainFlow {
             }
         }
         work_ += way_starts_[node + 1] - way_starts_[node] + 4;
-        label_[node] = std::min(unreachable(), lowest + 1);
         next_[node] = way_starts_[node];
+        const std::uint32_t old = label_[node];
+        take_from_list(node);
+        set_label(node, std::min(unreachable(), lowest + 1));
+        if (first_[old] == kNone) {
+            give_up_above(old);
+        }
     }
 
     /// Pushes on until nothing is left of the node's gain, or no loss can be reached.
@@ -178,7 +227,11 @@ class GainFlow {
     std::vector<Gain> flow_;            ///< of each way up: what was pushed
     std::vector<std::size_t> reverse_;  ///< of each way: the same from its other end
     std::vector<std::size_t> next_;     ///< the way to try next
-    std::vector<std::vector<std::uint32_t>> buckets_;
+    std::vector<std::uint32_t> first_;  ///< of each label: the first node of its list
+    std::vector<std::uint32_t> after_;  ///< of each node: the next of its list
+    std::vector<std::uint32_t> before_;
+    std::uint32_t top_ = 0;
+    std::vector<std::vector<std::uint32_t>> buckets_;  ///< of each label: nodes with a gain left, and others
     std::uint32_t highest_ = 0;
     std::size_t work_ = 0;  ///< since all were relabelled
 };
