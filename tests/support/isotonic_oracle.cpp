@@ -213,7 +213,7 @@ double unbalanced_part(std::span<const LevelNode> nodes, std::span<const Fall> f
     constexpr long long kAny = 1LL << 60;
     const std::size_t source = nodes.size();
     const std::size_t sink = source + 1;
-    const std::size_t ground = source + 2;  // what ranges hold
+    const std::size_t ground = source + 2;  // holds what is at the end of its range
     Network network(nodes.size() + 3);
     long long up = 0;
     long long down = 0;
@@ -227,12 +227,12 @@ double unbalanced_part(std::span<const LevelNode> nodes, std::span<const Fall> f
             network.add(i, sink, force);
             down += force;
         }
-        if (levels[i] == nodes[i].lowest) {
-            network.add(ground, i, kAny);
-        }
-        if (levels[i] == nodes[i].highest) {
-            network.add(i, ground, kAny);
-        }
+        // A level is rounded: twice what that makes of its node's pull is for nothing.
+        const long double rounding =
+            nodes[i].weight * std::abs(static_cast<long double>(levels[i])) * 0x1p-52L;
+        const long long slack = std::llround(std::min<long double>(rounding / unit, kAny));
+        network.add(ground, i, levels[i] == nodes[i].lowest ? kAny : slack);
+        network.add(i, ground, levels[i] == nodes[i].highest ? kAny : slack);
     }
     network.add(source, ground, down);
     network.add(ground, sink, up);

@@ -29,7 +29,7 @@ std::optional<std::vector<double>> best_levels(std::span<const tinwright::LevelN
 /// How far from the least squares levels are at most that satisfy all falls and ranges, as a part of what
 /// they should be: forces along falls that are level must hold each node against the pull of its target
 /// (the theorem of Karush, Kuhn and Tucker), and a maximum flow tells how much of them they can. 0: they
-/// are best.
+/// are best but for rounding.
 double unbalanced_part(std::span<const tinwright::LevelNode> nodes, std::span<const tinwright::Fall> falls,
                        std::span<const double> levels);
 

@@ -47,6 +47,7 @@ class GainFlow {
     }
 
     std::vector<bool> run() {
+        sweep();
         relabel_all();
         while (true) {
             while (highest_ > 0 && buckets_[highest_].empty()) {
@@ -93,6 +94,28 @@ class GainFlow {
             buckets_[label_[node]].push_back(node);
             highest_ = std::max(highest_, label_[node]);
         }
+    }
+
+    /// Pushes gains up once, from the mouth to the springs, first of all to losses next above: most that can
+    /// be made up for is then.
+    void sweep() {
+        for (std::uint32_t node = unreachable(); node-- > 0;) {
+            const auto uppers = graph_.uppers(node);
+            for (std::size_t i = 0; i < uppers.size() && gains_[node] > 0; ++i) {
+                if (gains_[uppers[i]] < 0) {
+                    move(node, way_starts_[node] + i, std::min(gains_[node], -gains_[uppers[i]]));
+                }
+            }
+            if (gains_[node] > 0 && !uppers.empty()) {
+                move(node, way_starts_[node], gains_[node]);
+            }
+        }
+    }
+
+    void move(std::uint32_t node, std::size_t way, Gain amount) {
+        flow_[way] += amount;
+        gains_[node] -= amount;
+        gains_[end_of(node, way)] += amount;
     }
 
     /// For a node that is in no list.

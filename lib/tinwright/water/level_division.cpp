@@ -159,8 +159,8 @@ Threshold find_threshold(const std::vector<LevelPool>& pools) {
     return {all.range.lowest > all.range.highest ? all.range.lowest : all.level(), false};
 }
 
-/// What each pool gains by a level above a threshold instead of at it, for each unit of height at first; in
-/// integers, so that sums are exact.
+/// What each pool gains when its level rises from the threshold, by so little that only the first order
+/// counts. In integers, so that sums are exact.
 std::vector<Gain> find_gains(const std::vector<LevelPool>& pools, const Threshold& threshold) {
     constexpr int kBits = 120;
     std::vector<long double> rough(pools.size());
@@ -230,8 +230,9 @@ std::vector<bool> find_not_below(const PooledFalls& falls, const Threshold& thre
     return is_inside;
 }
 
-bool contains_all(const std::vector<bool>& is_inside) {
-    return std::find(is_inside.begin(), is_inside.end(), false) == is_inside.end();
+/// Whether all are inside; or none are, which only rounding of a level brings about.
+bool divides_nothing(const std::vector<bool>& is_inside) {
+    return std::find(is_inside.begin(), is_inside.end(), !is_inside.front()) == is_inside.end();
 }
 
 class LevelDivision {
@@ -312,12 +313,12 @@ class LevelDivision {
     void cut(Part& part) {
         const Threshold threshold = find_threshold(part.falls.pools);
         std::vector<bool> is_inside = find_not_below(part.falls, threshold);
-        if (contains_all(is_inside) && !threshold.is_mean) {
+        if (divides_nothing(is_inside) && !threshold.is_mean) {
             // Where ranges end at the threshold, nothing below it does not mean nothing above it.
             is_inside = find_not_below(turn_over(part.falls), {-threshold.level, false});
             std::reverse(is_inside.begin(), is_inside.end());
         }
-        if (contains_all(is_inside)) {
+        if (divides_nothing(is_inside)) {
             settle(part, [&](std::uint32_t) { return threshold.level; });
         } else {
             keep_falls(part.falls.graph, [&](std::uint32_t upper, std::uint32_t lower) {
