@@ -75,6 +75,15 @@ TEST_SUITE("geometry/lattice") {
         CHECK(find_lattice(std::vector<Point3>{{1.5, 2.25, 0}, {30, 40, 0}}).lattice.quantum() == 0.01);
     }
 
+    TEST_CASE("lines with more decimals than there is room for are moved to the samples' lattice") {
+        const std::vector<Point3> samples = {{0, 0, 1}, {60, 60, 1}};
+        const std::vector<Point3> made = {{5.0 + 0x1p-13, 7, 2}};
+        const FoundLattice found = find_lattice(samples, made);
+        CHECK(found.lattice.decimals() == 0);
+        CHECK(found.lattice.position(found.lattice.key({made[0].x, made[0].y})) ==
+              Point2{made[0].x, made[0].y});
+    }
+
     TEST_CASE("decimal rows are collinear on the lattice, as they are not in binary") {
         for (int seed = 0; seed < cases(50); ++seed) {
             CAPTURE(seed);

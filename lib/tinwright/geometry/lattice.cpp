@@ -209,6 +209,12 @@ std::optional<Lattice> refine_for_lines(int sample_decimals, const Box& bounds) 
     return bits < kLeastBits ? std::nullopt : std::optional(plain.refined(bits));
 }
 
+// Steps of the last decimal across the bounds.
+double decimal_steps(int decimals, const Box& bounds) {
+    const double power = kPowersOfTen[static_cast<std::size_t>(decimals)];
+    return widest(bounds, [power](double v) { return Lattice::nearest_integer(v * power); });
+}
+
 }  // namespace
 
 Lattice Lattice::decimal(int decimals, Key2 origin) {
@@ -271,28 +277,30 @@ FoundLattice find_lattice(std::span<const Point3> samples, std::span<const Point
     const double largest = std::max(
         {std::abs(bounds.x_min), std::abs(bounds.x_max), std::abs(bounds.y_min), std::abs(bounds.y_max)});
     // A sample met early was tested with the decimals known by then, which may be too many for its size.
-    if (seen.decimals <= kMostDecimals &&
-        largest * kPowersOfTen[static_cast<std::size_t>(seen.decimals)] < kStepLimit) {
+    const bool is_decimal = seen.decimals <= kMostDecimals &&
+                            largest * kPowersOfTen[static_cast<std::size_t>(seen.decimals)] < kStepLimit;
+    const double steps = is_decimal ? decimal_steps(seen.decimals, bounds) : 0;
+    if (is_decimal && steps < kKeyLimit) {
         const Lattice plain = Lattice::decimal(seen.decimals, {});
-        const double power = kPowersOfTen[static_cast<std::size_t>(seen.decimals)];
-        const double steps = widest(bounds, [&](double v) { return Lattice::nearest_integer(v * power); });
-        if (steps >= kKeyLimit) {
-            const auto text = [](double v) { return std::to_string(static_cast<long long>(v)); };
-            throw InputError("the samples span " + text(steps) + " steps of their last decimal, " +
-                             decimal_text(plain.quantum()) + ", above the limit of 2^45 = " +
-                             text(kKeyLimit) + "; remove outlying samples or round the coordinates");
-        }
         return {Lattice::decimal(seen.decimals, plain.key({bounds.x_min, bounds.y_min})), bounds};
     }
-
-    if (const std::optional<Lattice> refined = find_refined({samples, line_points}, bounds)) {
-        return {*refined, bounds};
+    // Lines with made points may happen to be decimal, with many decimals.
+    if (!is_decimal || !line_points.empty()) {
+        if (const std::optional<Lattice> refined = find_refined({samples, line_points}, bounds)) {
+            return {*refined, bounds};
+        }
     }
-
     if (!line_points.empty()) {
         if (const std::optional<Lattice> refined = refine_for_lines(sample_decimals, bounds)) {
             return {*refined, bounds};
         }
+    }
+    if (is_decimal) {
+        const auto text = [](double v) { return std::to_string(static_cast<long long>(v)); };
+        throw InputError("the samples span " + text(steps) + " steps of their last decimal, " +
+                         decimal_text(Lattice::decimal(seen.decimals, {}).quantum()) +
+                         ", above the limit of 2^45 = " + text(kKeyLimit) +
+                         "; remove outlying samples or round the coordinates");
     }
 
     const double extent = std::max(bounds.x_max - bounds.x_min, bounds.y_max - bounds.y_min);
