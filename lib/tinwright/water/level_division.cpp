@@ -159,6 +159,16 @@ Threshold find_threshold(const std::vector<LevelPool>& pools) {
     return {all.range.lowest > all.range.highest ? all.range.lowest : all.level(), false};
 }
 
+/// The mean of the levels that pools would have alone.
+Threshold middle(const std::vector<LevelPool>& pools) {
+    LevelPool all;
+    for (const LevelPool& pool : pools) {
+        all.weight += pool.weight;
+        all.moment += pool.weight * static_cast<long double>(pool.level());
+    }
+    return {all.level(), false};
+}
+
 /// What each pool gains when its level rises from the threshold, by so little that only the first order
 /// counts. In integers, so that sums are exact.
 std::vector<Gain> find_gains(const std::vector<LevelPool>& pools, const Threshold& threshold) {
@@ -228,11 +238,6 @@ std::vector<bool> find_not_below(const PooledFalls& falls, const Threshold& thre
         is_inside[free[i]] = closure[i];
     }
     return is_inside;
-}
-
-/// Whether all are inside; or none are, which only rounding of a level brings about.
-bool divides_nothing(const std::vector<bool>& is_inside) {
-    return std::find(is_inside.begin(), is_inside.end(), !is_inside.front()) == is_inside.end();
 }
 
 class LevelDivision {
@@ -312,20 +317,35 @@ class LevelDivision {
 
     void cut(Part& part) {
         const Threshold threshold = find_threshold(part.falls.pools);
-        std::vector<bool> is_inside = find_not_below(part.falls, threshold);
-        if (divides_nothing(is_inside) && !threshold.is_mean) {
+        // Where ranges hold the level away from the mean, dividing there may part little from much.
+        if (!threshold.is_mean && divide(part, find_not_below(part.falls, middle(part.falls.pools)))) {
+            return;
+        }
+        if (divide(part, find_not_below(part.falls, threshold))) {
+            return;
+        }
+        if (!threshold.is_mean) {
             // Where ranges end at the threshold, nothing below it does not mean nothing above it.
-            is_inside = find_not_below(turn_over(part.falls), {-threshold.level, false});
+            std::vector<bool> is_inside = find_not_below(turn_over(part.falls), {-threshold.level, false});
             std::reverse(is_inside.begin(), is_inside.end());
+            if (divide(part, is_inside)) {
+                return;
+            }
         }
-        if (divides_nothing(is_inside)) {
-            settle(part, [&](std::uint32_t) { return threshold.level; });
-        } else {
-            keep_falls(part.falls.graph, [&](std::uint32_t upper, std::uint32_t lower) {
-                return is_inside[upper] == is_inside[lower];
-            });
-            push_connected(part, true);
+        settle(part, [&](std::uint32_t) { return threshold.level; });
+    }
+
+    /// Whether some are inside and some are not: these are parted then.
+    bool divide(Part& part, const std::vector<bool>& is_inside) {
+        // That none are is brought about by a threshold above all levels, and by rounding.
+        if (std::find(is_inside.begin(), is_inside.end(), !is_inside.front()) == is_inside.end()) {
+            return false;
         }
+        keep_falls(part.falls.graph, [&](std::uint32_t upper, std::uint32_t lower) {
+            return is_inside[upper] == is_inside[lower];
+        });
+        push_connected(part, true);
+        return true;
     }
 
     std::vector<double> levels_;
