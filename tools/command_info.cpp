@@ -33,7 +33,7 @@ Outcome CommandInfo::run() {
     const bool is_tin = is_existing_tin(request);
     Surface surface = is_tin ? read_existing_tin(request, console) : triangulate_sources(request, console);
     if (!surface.flat_faces) {
-        surface.flat_faces = count_in_file(surface.tin, surface.metadata);
+        surface.flat_faces = count_in_file(surface.tin, surface.is_water_face, surface.metadata);
     }
     const QualityReport quality = assess_quality(surface.tin);
     console.progress().finish();

@@ -21,9 +21,10 @@ FlatFaces treatment_value(const std::string& text) {
     return text.empty() ? FlatFaces::Keep : choice_value("--flat-faces", text, kTreatments);
 }
 
-FlatFacesSummary count_in_file(const Tin& tin, const io::TinMetadata& metadata) {
+FlatFacesSummary count_in_file(const Tin& tin, const std::vector<bool>& is_water,
+                               const io::TinMetadata& metadata) {
     FlatFacesSummary summary{treatment_name(FlatFaces::Keep), {}, true};
-    summary.report.after = count_flat_faces(tin);
+    summary.report.after = count_flat_faces(tin, is_water);
     for (const auto& [key, value] : metadata) {
         if (key == kFlatFacesKey) {
             summary.treatment = value.substr(0, value.find(':'));

@@ -2,6 +2,7 @@
 #define TINWRIGHT_TOOLS_FLAT_FACES_REPORT_HPP
 
 #include <string>
+#include <vector>
 
 #include "tinwright/io/write_tin.hpp"
 #include "tinwright/water/flat_faces.hpp"
@@ -28,8 +29,9 @@ FlatFaces treatment_value(const std::string& text);
 JsonValue flat_faces_json(const FlatFacesSummary& summary);
 /// For people.
 std::string flat_faces_line(const FlatFacesSummary& summary);
-/// The flat faces that a TIN has. `metadata`: of the file it was read from.
-FlatFacesSummary count_in_file(const Tin& tin, const io::TinMetadata& metadata);
+/// The flat faces that a TIN has. `is_water`: by face slot. `metadata`: of the file it was read from.
+FlatFacesSummary count_in_file(const Tin& tin, const std::vector<bool>& is_water,
+                               const io::TinMetadata& metadata);
 /// What a TIN file and a raster keep of it.
 io::TinMetadata flat_faces_metadata(const FlatFacesSummary& summary);
 
