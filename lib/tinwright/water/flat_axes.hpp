@@ -53,11 +53,12 @@ FlatAxes find_flat_axes(const Tin& tin, const FlatRegions& regions);
 /// The elevation of each node, NaN where nothing tells which way the terrain goes on.
 ///
 /// In regions that lead out: from that of the contour, kept at dead ends, to that of the vertex across the
-/// way out, linear along the way, of several ways the nearest [ware1998; thibault2000]; where ways to
-/// vertices on the same side meet, half of the difference remains. Strictly between the two, and monotone
-/// along the axis from the way out to each dead end. In closed regions: on from the contour as steep as the
-/// faces behind it on average, less and less so, and never as much as half the mean difference to the
-/// vertices behind; up if the terrain behind the walls is lower, by length, else down. O(n log n).
+/// way out, linear along the way, of several ways the nearest [ware1998; thibault2000]. Where ways from the
+/// same side meet there is a pass, as high as that of a hyperbolic paraboloid between the two contours would
+/// be. Strictly between the two contours, and monotone along the axis from the way out to each dead end.
+/// In closed regions: a dome, up if the terrain behind the walls is lower, by length, else a basin. At its
+/// widest place it is as high as the mean slope behind the walls would take it at small widths, and never as
+/// high as half the mean difference to the vertices behind. O(n log n).
 std::vector<double> find_axis_elevations(const Tin& tin, const FlatAxes& axes);
 
 /// Forgets the elevations of those that a swap will do for: way out and region are one face.

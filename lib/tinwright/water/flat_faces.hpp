@@ -14,7 +14,7 @@ namespace tinwright {
 enum class FlatFaces : std::uint8_t {
     Keep,
     Swap,   ///< edges are swapped where that leaves fewer flat faces
-    Insert  ///< and ridge and valley points are put into what is still flat
+    Insert  ///< ridge and valley points are put in, edges swapped where one swap does
 };
 
 struct FlatFacesReport {
@@ -25,15 +25,21 @@ struct FlatFacesReport {
     double seconds = 0;
 };
 
-/// Removes flatness from a (constrained) Delaunay TIN. `is_water`: by face slot, faces that are rightly flat;
-/// empty: none. Swap: an edge between a flat face and one that is not, not constrained, its quadrilateral
-/// strictly convex, becomes the other diagonal where that leaves fewer flat faces, steepest way out first,
-/// until there is none. Insert: what is still flat afterwards falls into regions of faces that share edges;
-/// each gets vertices along its medial axis (middles of the edges that lead across it, and of faces where it
-/// branches), with elevations between that of its contour and that of what it opens to, along the axis; a
-/// region closed on itself, a top or a bottom, goes on as the faces around it rise, up to half the
-/// difference of neighbouring contours. Inserted vertices have `Tin::kInserted` as their sample. Vertices are
-/// renumbered along the curve as everywhere. No constrained edge changes. Deterministic. O(n log n).
+/// Removes flatness that contours made from a (constrained) Delaunay TIN [ware1998]. `is_water`: by face
+/// slot, faces that are rightly flat; empty: none. Faces at a vertex, of no line, that is flat all around and
+/// not part of what looks like a contour stay too: there the samples say so.
+///
+/// Swap: an edge between a flat face and one that is not, no piece of a contour, its quadrilateral strictly
+/// convex, becomes the other diagonal, the steepest first, until there is none. Each leaves one flat face
+/// less. Insert: flat faces that share edges are a region. Those that a swap will do for, of one face with a
+/// way out, are swapped; every other one gets vertices along its medial axis: at the middles of the edges
+/// that lead across it and out of it, and of faces where it branches, with the elevations of ridges, valleys,
+/// passes, tops and bottoms (`flat_axes.hpp`), never beyond half an interval of the contours; except where
+/// walls contradict each other. Edges are Delaunay again before anything is swapped. With `keeps_delaunay`
+/// nothing is swapped, so that they stay so: for what is to be optimised. Inserted vertices have
+/// `Tin::kInserted` as their sample, on a lattice refined for them where there is room. Vertices are numbered
+/// along the curve as everywhere. No constrained edge changes, no face outside the terrain either. From the
+/// same TIN always the same. O(n log n).
 FlatFacesReport remove_flat_faces(Tin& tin, FlatFaces how, const std::vector<bool>& is_water = {},
                                   bool keeps_delaunay = false);
 

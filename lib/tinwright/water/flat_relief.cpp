@@ -159,12 +159,16 @@ class Relief {
         if (std::abs(sum.fall) <= sum.steepness / 2 || sum.area <= 0) {
             return;
         }
-        const double slope = sum.steepness / sum.area;
-        const double most = sum.steepness / sum.wall_length / 2;
+        double width = 0;
         for (const std::uint32_t n : region) {
-            const double straight = slope * axes_.nodes[n].half_width;
-            const double rise = straight / std::sqrt(1 + (straight / most) * (straight / most));
-            z_[n] = level(n) + std::copysign(rise, sum.fall);
+            width = std::max(width, axes_.nodes[n].half_width);
+        }
+        const double straight = width * sum.steepness / sum.area;
+        const double most = sum.steepness / sum.wall_length / 2;
+        const double summit = straight / std::sqrt(1 + (straight / most) * (straight / most));
+        for (const std::uint32_t n : region) {
+            const double share = axes_.nodes[n].half_width / width;  // steepest at the walls, like a dome
+            z_[n] = level(n) + std::copysign(summit * (share * (2 - share)), sum.fall);
         }
     }
 
