@@ -133,9 +133,10 @@ PooledFalls turn_over(const PooledFalls& falls) {
     std::vector<Fall> turned_falls;
     for (std::uint32_t pool = count; pool-- > 0;) {
         const auto uppers = falls.graph.uppers(pool);
-        for (auto upper = uppers.rbegin(); upper != uppers.rend(); ++upper) {
-            turned_falls.push_back({count - 1 - pool, count - 1 - *upper});
-        }
+        std::transform(uppers.rbegin(), uppers.rend(), std::back_inserter(turned_falls),
+                       [&](std::uint32_t upper) {
+                           return Fall{count - 1 - pool, count - 1 - upper};
+                       });
     }
     turned.graph = FallGraph(count, turned_falls);
     return turned;

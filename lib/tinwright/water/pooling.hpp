@@ -17,7 +17,7 @@ struct LevelPool {
 
     /// The level that is nearest to the targets, within the range.
     double level() const {
-        const double mean = static_cast<double>(moment / weight);
+        const auto mean = static_cast<double>(moment / weight);
         return mean < range.lowest ? range.lowest : mean > range.highest ? range.highest : mean;
     }
     void join(const LevelPool& other) {
