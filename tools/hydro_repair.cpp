@@ -76,11 +76,14 @@ std::vector<std::string> write_hydro(const LeveledWater& leveled, const HydroPla
                                                    leveled.line_sources, plan.lines, leveled.crs, overwrite);
     water->commit();
     folder.keep();
-    const auto sections = leveled.water.lines.size() - leveled.lines.lines.size();
-    report.push_back(plan.water + ": " + std::to_string(leveled.water.report.reaches.size()) + " reaches, " +
-                     std::to_string(sections) + " sections, " +
-                     std::to_string(leveled.water.report.lakes.size()) + " lakes, " +
-                     std::to_string(leveled.findings().size()) + " findings");
+    const auto counted = [](std::size_t count, const std::string& one, const std::string& many) {
+        return std::to_string(count) + " " + (count == 1 ? one : many);
+    };
+    const Water& made = leveled.water;
+    report.push_back(plan.water + ": " + counted(made.report.reaches.size(), "reach", "reaches") + ", " +
+                     counted(made.lines.size() - leveled.lines.lines.size(), "section", "sections") + ", " +
+                     counted(made.report.lakes.size(), "lake", "lakes") + ", " +
+                     counted(made.report.findings.size(), "finding", "findings"));
     return report;
 }
 

@@ -10,6 +10,11 @@ PartNames::PartNames(const io::Lines& lines, const io::Samples& samples) : lines
     for (const io::LineSlice& slice : lines.slices) {
         layers.emplace(slice.file, slice.layer);
     }
+    for (const io::SampleSlice& slice : samples.slices) {
+        if (slice.kind == io::SampleSlice::Kind::Vector) {
+            layers.emplace(slice.file, slice.layer);
+        }
+    }
     std::set<std::string> files;
     for (const auto& [file, layer] : layers) {
         (files.contains(file) ? several_ : files).insert(file);
@@ -34,9 +39,10 @@ std::string PartNames::of_sample(std::uint32_t sample) const {
     if (slice == nullptr) {
         return "sample " + std::to_string(sample);
     }
-    const std::string noun = slice->kind == io::SampleSlice::Kind::Vector   ? ": feature "
-                             : slice->kind == io::SampleSlice::Kind::Raster ? ": cell "
-                                                                            : ": line ";
+    if (slice->kind == io::SampleSlice::Kind::Vector) {
+        return of_feature(slice->file, slice->layer, slice->id(sample - slice->first));
+    }
+    const std::string noun = slice->kind == io::SampleSlice::Kind::Raster ? ": cell " : ": line ";
     return slice->file + noun + std::to_string(slice->id(sample - slice->first));
 }
 
