@@ -287,6 +287,7 @@ Surface read_existing_tin(const SurfaceRequest& request, Console& console) {
     const io::Crs assigned = request.crs.source_crs();
     Surface surface;
     surface.tin = io::make_tin(file);
+    surface.is_water_face = io::water_faces_of(file, surface.tin);
     for (const io::LineOrigin& line : file.lines) {
         surface.is_line_sharp.push_back(line.is_sharp);
         surface.is_river_line.push_back(line.role == LineRole::River);
