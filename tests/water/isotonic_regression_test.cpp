@@ -465,15 +465,29 @@ TEST_SUITE("water/isotonic_regression") {
         CHECK(fit.wanted == std::vector<double>{8});
     }
 
-    TEST_CASE("the lightest node beside the heaviest has a level of its own") {
-        // The first two are pooled, and heavy; the third, on another arm, weighs less than their rounding.
-        const std::vector<LevelNode> nodes{{0.1, 1e12}, {0.3, 3e12}, {0.2, 1e-9}, {-7, 1e-9}};
-        const std::vector<Fall> falls{{0, 1}, {0, 2}, {1, 3}, {2, 3}};
-        const std::vector<double> levels = fit_levels(nodes, falls, RiverFit::Isotonic).levels;
-        CHECK(levels[0] == doctest::Approx(0.25).epsilon(1e-15));
-        CHECK(levels[1] == levels[0]);
-        CHECK(levels[2] == 0.2);
-        CHECK(levels[3] == -7);
+    TEST_CASE("the lightest nodes beside the heaviest have levels of their own") {
+        // A braid of nodes that rise downstream, so heavy that the light ones before and after it weigh less
+        // than the rounding of its level.
+        for (int seed = 1; seed <= cases(40); ++seed) {
+            CAPTURE(seed);
+            Random random(static_cast<std::uint64_t>(seed));
+            std::vector<LevelNode> nodes{{3, 1e-9},
+                                         {1 + random.real(), 1e12},
+                                         {2.1 + random.real(), 1e12},
+                                         {2.1 + random.real(), 2e12},
+                                         {3.2 + random.real(), 1e12},
+                                         {1.9, 1e-9}};
+            const std::vector<Fall> falls{{0, 1}, {1, 2}, {1, 3}, {2, 4}, {3, 4}, {4, 5}};
+            const std::vector<double> levels = fit_levels(nodes, falls, RiverFit::Isotonic).levels;
+            const long double moment =
+                1e12L * (static_cast<long double>(nodes[1].target) + nodes[2].target +
+                         2 * static_cast<long double>(nodes[3].target) + nodes[4].target);
+            const auto mean = static_cast<double>(moment / 5e12L);
+            CHECK(levels[1] == doctest::Approx(mean).epsilon(1e-15));
+            CHECK(std::count(levels.begin(), levels.end(), levels[1]) >= 4);
+            CHECK(levels[0] == std::max(3.0, levels[1]));
+            CHECK(levels[5] == std::min(1.9, levels[4]));
+        }
     }
 
     TEST_CASE("a river drawn the wrong way is level, with one channel or two") {

@@ -194,16 +194,11 @@ std::vector<Gain> find_gains(const std::vector<LevelPool>& pools, const Threshol
     }
     if (threshold.is_mean) {
         // A mean is rounded. What that makes of heavy pools may be more than light ones weigh, and these
-        // would get a wrong level: the sum is made the zero that it is.
-        std::size_t heaviest = 0;
+        // would get a wrong level: the sum is made the zero that it is, but for a few units.
         const long double share = static_cast<long double>(sum) / weight;
         for (std::size_t i = 0; i < pools.size(); ++i) {
-            const auto correction = static_cast<Gain>(share * pools[i].weight);
-            gains[i] -= correction;
-            sum -= correction;
-            heaviest = pools[i].weight > pools[heaviest].weight ? i : heaviest;
+            gains[i] -= static_cast<Gain>(share * pools[i].weight);
         }
-        gains[heaviest] -= sum;
     }
     return gains;
 }
