@@ -21,6 +21,7 @@
 #include "support/cases.hpp"
 #include "support/messages.hpp"
 #include "support/point_sets.hpp"
+#include "water/rasters.hpp"
 #include "water/river_sets.hpp"
 #include "water/water_sets.hpp"
 
@@ -29,25 +30,6 @@ using namespace tinwright_tests;
 using Kind = WaterFinding::Kind;
 
 namespace {
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-
-struct Raster {
-    GridGeometry grid;
-    std::vector<double> values;
-
-    [[nodiscard]] RasterCheckReport check(const std::vector<Breakline>& lines, const Water& water,
-                                          double tolerance = 0) const {
-        const ReadCells read = [this](std::int64_t row, std::int64_t first, std::span<double> cells) {
-            REQUIRE(row >= 0);
-            REQUIRE(row < grid.rows);
-            REQUIRE(first >= 0);
-            REQUIRE(first + static_cast<std::int64_t>(cells.size()) <= grid.columns);
-            std::copy_n(values.begin() + row * grid.columns + first, cells.size(), cells.begin());
-        };
-        return check_raster(grid, read, lines, water, {.tolerance = tolerance, .progress = {}});
-    }
-};
 
 /// Values of z(column, row), in cells of one unit from (0, rows) on.
 template <class Z>
@@ -93,26 +75,6 @@ RasterCheckReport check_row(const std::vector<double>& values, double tolerance 
         return values[static_cast<std::size_t>(column)];
     });
     return raster.check(lines, water, tolerance);
-}
-
-/// The surface of a TIN under a method, as a raster; single precision where `is_float`.
-Raster grid_of(const Tin& tin, const Interpolator* surface, const GridGeometry& grid,
-               const std::vector<CellElevation>& cells, bool is_float) {
-    GriddingOptions options;
-    options.cells = cells;
-    SurfaceGridder gridder(tin, surface, grid, grid.rows, options);
-    const auto count = static_cast<std::size_t>(grid.columns * grid.rows);
-    Raster raster{grid, std::vector<double>(count)};
-    if (is_float) {
-        std::vector<float> values(count);
-        const std::array<std::span<float>, 1> spans{values};
-        gridder.fill(0, spans, std::numeric_limits<float>::quiet_NaN());
-        raster.values.assign(values.begin(), values.end());
-    } else {
-        const std::array<std::span<double>, 1> spans{raster.values};
-        gridder.fill(0, spans, kNone);
-    }
-    return raster;
 }
 
 /// Ways downstream over the rivers' edges, each vertex once, as reaches.
