@@ -345,6 +345,39 @@ TEST_SUITE("water/isotonic_regression") {
         }
     }
 
+    TEST_CASE("other numbers of the nodes do not change a bit") {
+        for (int seed = 1; seed <= cases(100); ++seed) {
+            CAPTURE(seed);
+            Random random(static_cast<std::uint64_t>(seed));
+            const std::size_t count = 2 + below(random, 200);
+            River river{random_nodes(random, count), {}};
+            river.falls = seed % 2 == 0 ? tree_falls(random, count) : any_falls(random, count, count);
+            if (seed % 3 == 0) {
+                bound_at_random(random, river.nodes, 20);
+            }
+            std::vector<std::uint32_t> name(count);
+            for (std::uint32_t i = 0; i < count; ++i) {
+                name[i] = i;
+                std::swap(name[i], name[below(random, i + 1)]);
+            }
+            River renamed = river;
+            for (std::size_t i = 0; i < count; ++i) {
+                renamed.nodes[name[i]] = river.nodes[i];
+            }
+            for (Fall& fall : renamed.falls) {
+                fall = {name[fall.upper], name[fall.lower]};
+            }
+            for (const RiverFit rule : {RiverFit::Isotonic, RiverFit::Min}) {
+                const LevelFit fit = fit_levels(river.nodes, river.falls, rule);
+                const LevelFit other = fit_levels(renamed.nodes, renamed.falls, rule);
+                CHECK(fit.beyond.size() == other.beyond.size());
+                for (std::size_t i = 0; i < count; ++i) {
+                    CHECK(fit.levels[i] == other.levels[name[i]]);
+                }
+            }
+        }
+    }
+
     TEST_CASE("other units of levels and weights give the same levels in these units") {
         for (int seed = 1; seed <= cases(60); ++seed) {
             CAPTURE(seed);

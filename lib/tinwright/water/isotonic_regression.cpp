@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 #include "tinwright/water/level_division.hpp"
@@ -11,18 +12,45 @@ namespace tinwright {
 
 namespace {
 
-std::vector<double> fit_squares(std::span<const LevelNode> nodes, const LevelBounds& bounds) {
+/// Without a range.
+LevelPool pool_of(const LevelNode& node) {
+    const auto weight = static_cast<long double>(node.weight);
+    return {weight, weight * static_cast<long double>(node.target), {}};
+}
+
+/// Of each step the first of those that have one level with it.
+std::vector<std::uint32_t> find_groups(std::span<const LevelNode> nodes, const LevelBounds& bounds) {
     PooledFalls falls{std::vector<LevelPool>(bounds.steps.count), bounds.graph};
     for (std::uint32_t step = 0; step < bounds.steps.count; ++step) {
         falls.pools[step].range = bounds.ranges[step];
     }
     for (std::size_t node = 0; node < nodes.size(); ++node) {
-        LevelPool& pool = falls.pools[bounds.steps.step[node]];
-        const auto weight = static_cast<long double>(nodes[node].weight);
-        pool.weight += weight;
-        pool.moment += weight * static_cast<long double>(nodes[node].target);
+        falls.pools[bounds.steps.step[node]].join(pool_of(nodes[node]));
     }
-    return divide_levels(std::move(falls));
+    return find_level_groups(std::move(falls));
+}
+
+std::vector<double> fit_squares(std::span<const LevelNode> nodes, const LevelBounds& bounds) {
+    const std::vector<std::uint32_t> group_of = find_groups(nodes, bounds);
+    std::vector<LevelPool> groups(bounds.steps.count);
+    for (std::uint32_t step = 0; step < bounds.steps.count; ++step) {
+        groups[group_of[step]].join({0, 0, bounds.ranges[step]});
+    }
+    // In an order of their own, so that the sums are the same however nodes are numbered.
+    std::vector<std::tuple<std::uint32_t, double, double>> members;
+    members.reserve(nodes.size());
+    for (std::size_t node = 0; node < nodes.size(); ++node) {
+        members.emplace_back(group_of[bounds.steps.step[node]], nodes[node].target, nodes[node].weight);
+    }
+    std::sort(members.begin(), members.end());
+    for (const auto& [group, target, weight] : members) {
+        groups[group].join(pool_of(LevelNode{target, weight}));
+    }
+    std::vector<double> levels(bounds.steps.count);
+    for (std::uint32_t step = 0; step < levels.size(); ++step) {
+        levels[step] = groups[group_of[step]].level();
+    }
+    return levels;
 }
 
 std::vector<double> fit_lowest(std::span<const LevelNode> nodes, const LevelBounds& bounds) {

@@ -45,8 +45,9 @@ struct LevelFit {
 /// luss2012]. Min: of the target of each node and the levels above it the lowest, raised where a bound of it
 /// or downstream asks for that. Nodes on a cycle of falls get one level, unless given levels contradict each
 /// other there. Every fall holds exactly, also after rounding to double precision, but for those of `beyond`.
-/// `falls`: any order, repeated or not; the result does not depend on it. O(n log n) for chains and trees;
-/// cuts touch only connected parts with violations that pooling leaves, near-linear in practice.
+/// `falls`: any order, repeated or not. The result does not depend on it or on numbers of nodes. O(n log n)
+/// for chains and trees; cuts touch only connected parts with violations that pooling leaves, near-linear in
+/// practice.
 LevelFit fit_levels(std::span<const LevelNode> nodes, std::span<const Fall> falls, RiverFit fit);
 
 }  // namespace tinwright

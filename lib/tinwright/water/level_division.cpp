@@ -48,7 +48,7 @@ std::vector<std::uint32_t> number_connected(const FallGraph& graph, std::uint32_
 }
 
 /// The connected parts of two pools or more; what is single is left to `settle`, called with a member and
-/// its pool.
+/// the number of its pool.
 template <class Settle>
 std::vector<Part> part_connected(const Part& whole, const Settle& settle) {
     const auto& [pools, graph] = whole.falls;
@@ -72,7 +72,7 @@ std::vector<Part> part_connected(const Part& whole, const Settle& settle) {
     for (std::size_t i = 0; i < whole.members.size(); ++i) {
         const std::uint32_t pool = whole.pool_of[i];
         if (number[pool] == kNone) {
-            settle(whole.members[i], pools[pool]);
+            settle(whole.members[i], pool);
         } else {
             parts[number[pool]].members.push_back(whole.members[i]);
             parts[number[pool]].pool_of.push_back(new_pool[pool]);
@@ -238,9 +238,9 @@ std::vector<bool> find_not_below(const PooledFalls& falls, const Threshold& thre
 
 class LevelDivision {
   public:
-    explicit LevelDivision(std::size_t count) : levels_(count) {}
+    explicit LevelDivision(std::size_t count) : group_(count) {}
 
-    std::vector<double> run(PooledFalls falls) {
+    std::vector<std::uint32_t> run(PooledFalls falls) {
         std::vector<std::uint32_t> numbers(falls.pools.size());
         std::iota(numbers.begin(), numbers.end(), 0U);
         parts_.push_back({std::move(falls), numbers, numbers});
@@ -255,7 +255,7 @@ class LevelDivision {
                 cut(part);
             }
         }
-        return std::move(levels_);
+        return std::move(group_);
     }
 
   private:
@@ -268,18 +268,24 @@ class LevelDivision {
     }
 
     void push_connected(const Part& whole, bool are_new) {
-        auto parts = part_connected(
-            whole, [&](std::uint32_t member, const LevelPool& pool) { levels_[member] = pool.level(); });
+        std::vector<std::uint32_t> first(whole.falls.pools.size(), kNone);
+        auto parts = part_connected(whole, [&](std::uint32_t member, std::uint32_t pool) {
+            first[pool] = std::min(first[pool], member);
+            group_[member] = first[pool];
+        });
         for (Part& part : parts) {
             part.is_new = are_new;
             parts_.push_back(std::move(part));
         }
     }
 
-    template <class LevelOf>
-    void settle(const Part& part, const LevelOf& level_of) {
+    /// `root`: of each pool one of those that it has one level with, the same for all of them.
+    void settle(const Part& part, const std::vector<std::uint32_t>& root) {
+        std::vector<std::uint32_t> first(root.size(), kNone);
         for (std::size_t i = 0; i < part.members.size(); ++i) {
-            levels_[part.members[i]] = level_of(part.pool_of[i]);
+            std::uint32_t& group = first[root[part.pool_of[i]]];
+            group = std::min(group, part.members[i]);
+            group_[part.members[i]] = group;
         }
     }
 
@@ -293,16 +299,16 @@ class LevelDivision {
             divides = divides || graph.lowers(pool).size() > 1;
         }
         if (!divides) {
-            const std::vector<double> levels = fit_tree(part.falls);
-            settle(part, [&](std::uint32_t pool) { return levels[pool]; });
+            settle(part, pool_branches(part.falls));
         } else if (!joins) {
-            const std::vector<double> levels = fit_tree(turn_over(part.falls));
-            settle(part, [&](std::uint32_t pool) { return -levels[levels.size() - 1 - pool]; });
+            std::vector<std::uint32_t> root = pool_branches(turn_over(part.falls));
+            std::reverse(root.begin(), root.end());
+            settle(part, root);
         }
         return !divides || !joins;
     }
 
-    static std::vector<double> fit_tree(const PooledFalls& falls) {
+    static std::vector<std::uint32_t> pool_branches(const PooledFalls& falls) {
         std::vector<std::uint32_t> lower(falls.pools.size());
         for (std::uint32_t pool = 0; pool < lower.size(); ++pool) {
             const auto lowers = falls.graph.lowers(pool);
@@ -328,7 +334,7 @@ class LevelDivision {
                 return;
             }
         }
-        settle(part, [&](std::uint32_t) { return threshold.level; });
+        settle(part, std::vector<std::uint32_t>(part.falls.pools.size(), 0));
     }
 
     /// Whether some are inside and some are not: these are parted then.
@@ -344,13 +350,13 @@ class LevelDivision {
         return true;
     }
 
-    std::vector<double> levels_;
+    std::vector<std::uint32_t> group_;
     std::vector<Part> parts_;
 };
 
 }  // namespace
 
-std::vector<double> divide_levels(PooledFalls falls) {
+std::vector<std::uint32_t> find_level_groups(PooledFalls falls) {
     const std::size_t count = falls.pools.size();
     return LevelDivision(count).run(std::move(falls));
 }

@@ -108,7 +108,7 @@ PooledChains pool_chains(const PooledFalls& falls) {
     return result;
 }
 
-std::vector<double> pool_tree(std::vector<LevelPool> pools, std::span<const std::uint32_t> lower) {
+std::vector<std::uint32_t> pool_tree(std::vector<LevelPool> pools, std::span<const std::uint32_t> lower) {
     const auto count = static_cast<std::uint32_t>(pools.size());
     PoolHeaps heaps(count);
     std::vector<std::uint32_t> above(count, kNone);  // heap of the pools next above each pool
@@ -128,11 +128,10 @@ std::vector<double> pool_tree(std::vector<LevelPool> pools, std::span<const std:
             above[lower[pool]] = heaps.meld(above[lower[pool]], pool);
         }
     }
-    std::vector<double> levels(count);
     for (std::uint32_t pool = count; pool-- > 0;) {
-        levels[pool] = joined_with[pool] == pool ? heaps.level(pool) : levels[joined_with[pool]];
+        joined_with[pool] = joined_with[joined_with[pool]];
     }
-    return levels;
+    return joined_with;
 }
 
 }  // namespace tinwright

@@ -44,10 +44,10 @@ struct PooledChains {
 /// O(n).
 PooledChains pool_chains(const PooledFalls& falls);
 
-/// The best levels where no pool has more than one lower neighbour: from the springs down each pool is
-/// joined with the lowest of those above it that are lower. `lower`: of each pool, or its own number; never
-/// smaller. O(n log n).
-std::vector<double> pool_tree(std::vector<LevelPool> pools, std::span<const std::uint32_t> lower);
+/// Where no pool has more than one lower neighbour: from the springs down each pool is joined with the lowest
+/// of those above it that are lower. Of each pool the last of those that it has one level with. `lower`: of
+/// each pool, or its own number; never smaller. O(n log n).
+std::vector<std::uint32_t> pool_tree(std::vector<LevelPool> pools, std::span<const std::uint32_t> lower);
 
 }  // namespace tinwright
 
