@@ -47,7 +47,8 @@ inline std::span<const ContourTerrain> contour_terrains() {
                            return 104.3 + ((x - 497) * (x - 497) - (y - 503) * (y - 503)) / 4000;
                        }},
         ContourTerrain{"hills", [](double x, double y) {
-                           return 100.3 + 25 * std::sin(x / 90) * std::cos(y / 110) + 8 * std::sin(x / 37 + y / 45);
+                           return 100.3 + 25 * std::sin(x / 90) * std::cos(y / 110) +
+                                  8 * std::sin(x / 37 + y / 45);
                        }}};
     return kTerrains;
 }

@@ -21,11 +21,21 @@ FlatFacesReport remove_flat_faces(Tin& tin, FlatFaces how, const std::vector<boo
         if (!keeps_delaunay) {
             internal::leave_out_single_faces(axes, z);
         }
-        report.inserted = internal::insert_axis_points(tin, axes, z);
-        internal::restore_delaunay(tin);
+        const internal::InsertedPoints points = internal::insert_axis_points(tin, axes, z);
+        report.inserted = points.count;
+        if (keeps_delaunay) {
+            internal::restore_delaunay(tin);
+        } else {
+            internal::restore_delaunay_around(tin, points.edges);  // from bank to bank would dam a valley
+        }
     }
     if (report.before > 0 && how != FlatFaces::Keep && !keeps_delaunay) {
-        report.swapped = internal::swap_flat_edges(tin, internal::FlatRegions(tin, is_water));
+        // What is left may look different then: parts of regions, with rims of their own.
+        std::size_t swapped = 0;
+        do {
+            swapped = internal::swap_flat_edges(tin, internal::FlatRegions(tin, is_water));
+            report.swapped += swapped;
+        } while (swapped > 0);
     }
     report.after = count_flat_faces(tin, is_water);
     report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

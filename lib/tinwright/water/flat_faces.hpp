@@ -35,8 +35,8 @@ struct FlatFacesReport {
 /// way out, are swapped; every other one gets vertices along its medial axis: at the middles of the edges
 /// that lead across it and out of it, and of faces where it branches, with the elevations of ridges, valleys,
 /// passes, tops and bottoms (`flat_axes.hpp`), never beyond half an interval of the contours; except where
-/// walls contradict each other. Edges are Delaunay again before anything is swapped. With `keeps_delaunay`
-/// nothing is swapped, so that they stay so: for what is to be optimised. Inserted vertices have
+/// walls contradict each other. Edges but those along axes are Delaunay again before anything is swapped.
+/// With `keeps_delaunay` all are and nothing is swapped: for what is to be optimised. Inserted vertices have
 /// `Tin::kInserted` as their sample, on a lattice refined for them where there is room. Vertices are numbered
 /// along the curve as everywhere. No constrained edge changes, no face outside the terrain either. From the
 /// same TIN always the same. O(n log n).

@@ -41,8 +41,8 @@ void arrange(LargeVector<Value>& values, std::span<const std::uint32_t> order) {
     values = std::move(arranged);
 }
 
-/// Old vertices keep their order among themselves, so traces stay sorted.
-void sort_vertices(Tin& tin) {
+/// Returns everybody's new number. Old vertices keep their order among themselves, so traces stay sorted.
+std::vector<VertexId> sort_vertices(Tin& tin) {
     const std::vector<std::uint32_t> order = sort_along_curve(tin.keys);
     std::vector<VertexId> new_ids(order.size());
     for (std::uint32_t i = 0; i < order.size(); ++i) {
@@ -56,6 +56,7 @@ void sort_vertices(Tin& tin) {
         trace.a = new_ids[trace.a.value];
         trace.b = new_ids[trace.b.value];
     }
+    return new_ids;
 }
 
 class PointInserter {
@@ -143,7 +144,7 @@ class PointInserter {
 
 }  // namespace
 
-std::size_t insert_axis_points(Tin& tin, const FlatAxes& axes, std::span<const double> z) {
+InsertedPoints insert_axis_points(Tin& tin, const FlatAxes& axes, std::span<const double> z) {
     const auto has_point = [&](std::size_t n) {
         return std::isfinite(z[n]) && z[n] != tin.z[axes.nodes[n].a.value];
     };
@@ -156,19 +157,39 @@ std::size_t insert_axis_points(Tin& tin, const FlatAxes& axes, std::span<const d
         }
     }
     if (wanted.empty()) {
-        return 0;
+        return {};
     }
     refine(tin);
     PointInserter inserter(tin);
-    std::size_t inserted = 0;
+    InsertedPoints result;
+    std::vector<VertexId> vertex(z.size(), kGhostVertex);  // of each node
     for (const std::size_t n : wanted) {
-        inserted += inserter.insert(axes.nodes[n], z[n]) ? 1U : 0U;
+        if (inserter.insert(axes.nodes[n], z[n])) {
+            vertex[n] = {static_cast<std::uint32_t>(tin.vertex_count() - 1)};
+            ++result.count;
+        }
     }
-    sort_vertices(tin);
-    return inserted;
+    const std::vector<VertexId> new_ids = sort_vertices(tin);
+    const auto keep = [&](VertexId a, VertexId b) {
+        if (a != kGhostVertex && b != kGhostVertex) {
+            result.edges.push_back(std::minmax(new_ids[a.value], new_ids[b.value]));
+        }
+    };
+    for (const AxisLink& link : axes.links) {
+        keep(vertex[link.from], vertex[link.to]);
+    }
+    for (std::size_t n = 0; n < vertex.size(); ++n) {
+        keep(vertex[n], axes.nodes[n].outlet);
+    }
+    std::sort(result.edges.begin(), result.edges.end());
+    return result;
 }
 
-void restore_delaunay(Tin& tin) {
+namespace {
+
+/// Flips edges of terrain that are not Delaunay, as long as `may_flip(h)`.
+template <class MayFlip>
+void flip_to_delaunay(Tin& tin, const MayFlip& may_flip) {
     TriangleMesh& mesh = tin.mesh;
     std::vector<HalfEdgeId> pending;
     for (std::uint32_t f = 0; f < mesh.slot_count(); ++f) {
@@ -182,7 +203,8 @@ void restore_delaunay(Tin& tin) {
             if (mesh.is_constrained(h) || !mesh.is_terrain(face_of(h)) || !mesh.is_terrain(face_of(t)) ||
                 incircle_perturbed(tin.key(mesh.origin(h)), tin.key(mesh.destination(h)),
                                    tin.key(mesh.origin(previous(h))),
-                                   tin.key(mesh.origin(previous(t)))) <= 0) {
+                                   tin.key(mesh.origin(previous(t)))) <= 0 ||
+                !may_flip(h)) {
                 continue;
             }
             flip_edge(mesh, h);
@@ -192,6 +214,24 @@ void restore_delaunay(Tin& tin) {
             }
         }
     }
+}
+
+}  // namespace
+
+void restore_delaunay(Tin& tin) {
+    flip_to_delaunay(tin, [](HalfEdgeId) { return true; });
+}
+
+void restore_delaunay_around(Tin& tin, std::span<const AxisEdge> kept) {
+    flip_to_delaunay(tin, [&tin, kept](HalfEdgeId h) {
+        const TriangleMesh& mesh = tin.mesh;
+        const VertexId a = mesh.origin(h);
+        const VertexId b = mesh.destination(h);
+        const double c = tin.z[mesh.origin(previous(h)).value];
+        const double d = tin.z[mesh.origin(previous(mesh.twin(h))).value];
+        const bool makes_flat = c == d && (tin.z[a.value] == c || tin.z[b.value] == c);
+        return !makes_flat && !std::binary_search(kept.begin(), kept.end(), AxisEdge(std::minmax(a, b)));
+    });
 }
 
 }  // namespace tinwright::internal

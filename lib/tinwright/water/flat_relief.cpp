@@ -60,7 +60,7 @@ class Relief {
         return std::span(axes_.links).subspan(first_[node], first_[node + 1] - first_[node]);
     }
 
-    /// The shortest ways of all nodes, from wherever there is one in [dijkstra1959].
+    /// The shortest ways of all nodes, from wherever there is one in.
     void go_in() {
         using Entry = std::tuple<double, std::uint32_t, std::uint32_t>;  // done, node, from
         std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
