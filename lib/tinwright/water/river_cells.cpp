@@ -7,6 +7,7 @@
 #include <limits>
 #include <numeric>
 #include <optional>
+#include <queue>
 #include <utility>
 
 #include "tinwright/geometry/predicates.hpp"
@@ -83,6 +84,7 @@ struct RiverPass {
 std::vector<RiverPass> find_passes(const Tin& tin, const std::vector<RiverEdge>& edges,
                                    const GridGeometry& grid) {
     std::vector<RiverPass> passes;
+    passes.reserve(2 * edges.size());
     for (std::uint32_t e = 0; e < edges.size(); ++e) {
         const Point3 upper = tin.position(edges[e].upper);
         const Point3 lower = tin.position(edges[e].lower);
@@ -153,63 +155,93 @@ class WaterFaces {
     BoxTree tree_;
 };
 
-/// Cells that rivers pass, and the vertices between their edges, joined in the direction of flow.
+/// The cells of passes, ascending; of each pass the number of its cell among them.
+struct PassedCells {
+    std::vector<std::int64_t> cells;
+    std::vector<std::uint32_t> of_pass;
+};
+
+PassedCells number_cells(const std::vector<RiverPass>& passes) {
+    std::vector<std::pair<std::int64_t, std::uint32_t>> sorted;
+    sorted.reserve(passes.size());
+    for (std::uint32_t i = 0; i < passes.size(); ++i) {
+        sorted.emplace_back(passes[i].cell, i);
+    }
+    std::sort(sorted.begin(), sorted.end());
+    PassedCells passed{{}, std::vector<std::uint32_t>(passes.size())};
+    for (const auto& [cell, pass] : sorted) {
+        if (passed.cells.empty() || passed.cells.back() != cell) {
+            passed.cells.push_back(cell);
+        }
+        passed.of_pass[pass] = static_cast<std::uint32_t>(passed.cells.size() - 1);
+    }
+    return passed;
+}
+
+/// Cells that rivers pass, and the vertices between their edges, joined in the direction of flow. A place is
+/// a cell, or after all cells a vertex.
 class FlowPlaces {
   public:
+    /// `is_water`: of each cell, whether it is left alone: the way leads on behind it.
     FlowPlaces(const Tin& tin, const std::vector<RiverEdge>& edges, const std::vector<RiverPass>& passes,
-               std::vector<std::int64_t> cells)
-        : cells_(std::move(cells)) {
+               const PassedCells& passed, const std::vector<bool>& is_water)
+        : cell_count_(passed.cells.size()), z_(cell_count_, std::numeric_limits<double>::infinity()) {
         for (const RiverEdge& edge : edges) {
             vertices_.insert(vertices_.end(), {edge.upper, edge.lower});
         }
         std::sort(vertices_.begin(), vertices_.end());
         vertices_.erase(std::unique(vertices_.begin(), vertices_.end()), vertices_.end());
-        z_.assign(cells_.size(), std::numeric_limits<double>::infinity());
         for (const VertexId v : vertices_) {
             z_.push_back(tin.z[v.value]);
         }
-        join(edges, passes);
+        for (std::size_t i = 0; i < passes.size(); ++i) {
+            double& z = z_[passed.of_pass[i]];
+            z = std::min(z, passes[i].z);
+        }
+        join(edges, passes, passed, is_water);
     }
 
-    /// The lowest elevation of each cell and all that is upstream of it.
-    std::vector<CellElevation> run_down() {
-        std::vector<std::uint32_t> order(z_.size());
-        std::iota(order.begin(), order.end(), 0U);
-        std::sort(order.begin(), order.end(), [this](std::uint32_t a, std::uint32_t b) {
-            return std::pair(z_[a], a) < std::pair(z_[b], b);
-        });
-        std::vector<bool> is_reached(z_.size());
-        std::vector<std::uint32_t> todo;
-        for (const std::uint32_t lowest : order) {
-            const double z = z_[lowest];
-            todo.assign(1, lowest);
-            while (!todo.empty()) {
-                const std::uint32_t place = todo.back();
-                todo.pop_back();
-                if (is_reached[place]) {
-                    continue;
-                }
-                is_reached[place] = true;
-                z_[place] = z;
-                todo.insert(todo.end(), downstream_.begin() + begin_[place],
-                            downstream_.begin() + begin_[place + 1]);
+    /// The lowest elevation of each place and all that is upstream of it.
+    const std::vector<double>& run_down() {
+        // Nearly everywhere it runs down already. From where it does not, the lowest first, so that what a
+        // place gets is its last.
+        using Entry = std::pair<double, std::uint32_t>;
+        std::priority_queue<Entry, std::vector<Entry>, std::greater<>> todo;
+        for (std::uint32_t place = 0; place < z_.size(); ++place) {
+            const auto [begin, end] = downstream_of(place);
+            if (std::any_of(begin, end, [&](std::uint32_t next) { return z_[next] > z_[place]; })) {
+                todo.emplace(z_[place], place);
             }
         }
-        std::vector<CellElevation> elevations;
-        elevations.reserve(cells_.size());
-        for (std::size_t i = 0; i < cells_.size(); ++i) {
-            elevations.push_back({cells_[i], z_[i]});
+        while (!todo.empty()) {
+            const auto [z, place] = todo.top();
+            todo.pop();
+            if (z > z_[place]) {
+                continue;
+            }
+            const auto [begin, end] = downstream_of(place);
+            for (auto next = begin; next != end; ++next) {
+                if (z_[*next] > z) {
+                    z_[*next] = z;
+                    todo.emplace(z, *next);
+                }
+            }
         }
-        return elevations;
+        return z_;
     }
 
   private:
-    using Joint = std::pair<std::uint32_t, std::uint32_t>;
+    using Iterator = std::vector<std::uint32_t>::const_iterator;
 
-    void join(const std::vector<RiverEdge>& edges, const std::vector<RiverPass>& passes) {
-        std::vector<Joint> joints;
+    [[nodiscard]] std::pair<Iterator, Iterator> downstream_of(std::uint32_t place) const {
+        return {downstream_.begin() + begin_[place], downstream_.begin() + begin_[place + 1]};
+    }
+
+    void join(const std::vector<RiverEdge>& edges, const std::vector<RiverPass>& passes,
+              const PassedCells& passed, const std::vector<bool>& is_water) {
+        std::vector<std::pair<std::uint32_t, std::uint32_t>> joints;
         joints.reserve(passes.size() + edges.size());
-        auto pass = passes.begin();
+        std::size_t pass = 0;
         for (std::uint32_t e = 0; e < edges.size(); ++e) {
             std::uint32_t before = place_of(edges[e].upper);
             const auto go_to = [&](std::uint32_t place) {
@@ -219,36 +251,34 @@ class FlowPlaces {
                 }
                 before = place;
             };
-            for (; pass != passes.end() && pass->edge == e; ++pass) {
-                const auto found = std::lower_bound(cells_.begin(), cells_.end(), pass->cell);
-                if (found != cells_.end() && *found == pass->cell) {
-                    const auto place = static_cast<std::uint32_t>(found - cells_.begin());
-                    z_[place] = std::min(z_[place], pass->z);
-                    go_to(place);
+            for (; pass < passes.size() && passes[pass].edge == e; ++pass) {
+                if (!is_water[passed.of_pass[pass]]) {
+                    go_to(passed.of_pass[pass]);
                 }
             }
             go_to(place_of(edges[e].lower));
         }
-        std::sort(joints.begin(), joints.end());
         begin_.assign(z_.size() + 1, 0);
-        downstream_.reserve(joints.size());
-        for (const auto& [from, to] : joints) {
-            ++begin_[from + 1];
-            downstream_.push_back(to);
+        for (const auto& joint : joints) {
+            ++begin_[joint.first + 1];
         }
         std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
+        downstream_.resize(joints.size());
+        std::vector<std::ptrdiff_t> at(begin_.begin(), begin_.end() - 1);
+        for (const auto& [from, to] : joints) {
+            downstream_[static_cast<std::size_t>(at[from]++)] = to;
+        }
     }
 
     [[nodiscard]] std::uint32_t place_of(VertexId v) const {
         const auto found = std::lower_bound(vertices_.begin(), vertices_.end(), v);
-        return static_cast<std::uint32_t>(cells_.size()) +
+        return static_cast<std::uint32_t>(cell_count_) +
                static_cast<std::uint32_t>(found - vertices_.begin());
     }
 
-    // A place is a cell, or after all cells a vertex.
-    std::vector<std::int64_t> cells_;  // ascending
-    std::vector<VertexId> vertices_;   // ascending
-    std::vector<double> z_;            // by place: the lowest there
+    std::size_t cell_count_;
+    std::vector<VertexId> vertices_;  // ascending
+    std::vector<double> z_;           // by place: the lowest there
     std::vector<std::uint32_t> downstream_;
     std::vector<std::ptrdiff_t> begin_;  // by place, into `downstream_`
 };
@@ -289,19 +319,24 @@ std::vector<CellElevation> find_river_cells(const Tin& tin, const std::vector<bo
                                             const GridGeometry& grid) {
     const std::vector<RiverEdge> edges = find_river_edges(tin, is_river_line);
     const std::vector<RiverPass> passes = find_passes(tin, edges, grid);
-    std::vector<std::int64_t> cells;
-    cells.reserve(passes.size());
-    for (const RiverPass& pass : passes) {
-        cells.push_back(pass.cell);
-    }
-    std::sort(cells.begin(), cells.end());
-    cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+    const PassedCells passed = number_cells(passes);
+    std::vector<bool> is_water(passed.cells.size());
     if (const WaterFaces water(tin, is_water_face); !water.is_empty()) {
-        std::erase_if(cells, [&](std::int64_t cell) {
-            return water.hold(grid.centre(cell % grid.columns, cell / grid.columns));
-        });
+        for (std::size_t i = 0; i < is_water.size(); ++i) {
+            const std::int64_t cell = passed.cells[i];
+            is_water[i] = water.hold(grid.centre(cell % grid.columns, cell / grid.columns));
+        }
     }
-    return FlowPlaces(tin, edges, passes, std::move(cells)).run_down();
+    FlowPlaces places(tin, edges, passes, passed, is_water);
+    const std::vector<double>& z = places.run_down();
+    std::vector<CellElevation> elevations;
+    elevations.reserve(passed.cells.size());
+    for (std::size_t i = 0; i < passed.cells.size(); ++i) {
+        if (!is_water[i]) {
+            elevations.push_back({passed.cells[i], z[i]});
+        }
+    }
+    return elevations;
 }
 
 }  // namespace tinwright
