@@ -135,8 +135,9 @@ void FlatRegions::judge_rim(const std::vector<HalfEdgeId>& rim, std::vector<Edge
     Lengths openings;
     for (const HalfEdgeId h : rim) {
         const double rise = rise_beyond(h);
-        if (rise != 0) {
-            Lengths& lengths = kind(h) == FlatEdge::Wall ? walls : openings;
+        const bool is_wall = kind(h) == FlatEdge::Wall;
+        if (rise != 0 && (is_wall || is_uncertain(h))) {
+            Lengths& lengths = is_wall ? walls : openings;
             (rise > 0 ? lengths.up : lengths.down) +=
                 std::sqrt(squared_distance(tin_.key(mesh.origin(h)), tin_.key(mesh.destination(h))));
         }
@@ -146,8 +147,10 @@ void FlatRegions::judge_rim(const std::vector<HalfEdgeId>& rim, std::vector<Edge
     const double beyond = 2 * (walls.up - walls.down) + (is_consistent ? 0 : openings.up - openings.down);
     for (const HalfEdgeId h : rim) {
         const double rise = rise_beyond(h);
-        const bool is_told = beyond != 0 && rise != 0;
-        if (is_uncertain(h) && (is_told ? (rise > 0) == (beyond > 0) : kind(h) == FlatEdge::Wall)) {
+        const double by = is_uncertain(h) ? beyond : walls.up - walls.down;
+        const bool is_told = by != 0 && rise != 0;
+        const bool is_wall = is_told ? (rise > 0) == (by > 0) : kind(h) == FlatEdge::Wall;
+        if (!mesh.is_constrained(h) && is_dry(face_of(mesh.twin(h))) && is_wall) {
             pieces.push_back(ends_of(mesh, h));
         }
     }

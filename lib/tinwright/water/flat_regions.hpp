@@ -20,13 +20,13 @@ enum class FlatEdge : std::uint8_t {
 /// Flat faces that contours made, and their edges. Answers hold while edges are flipped, but for those of
 /// faces that are flat no more.
 ///
-/// A contour that came in as a line is constrained, and an edge between vertices of lines is not one. One
-/// that came in as samples is guessed: an edge whose opposite angles are together less than a right angle is
-/// a piece of a curve through the samples [gold1999]. On the rim of a region that must agree with the
-/// terrain: it goes on one way behind all pieces of the contour and the other way behind all ways out. Where
-/// it does not agree, the longer part of the rim is the contour. A vertex on no line that has flat faces all
-/// around, and is not on a curve by that rule, with two pieces at it, says that the terrain itself is flat:
-/// its faces are not treated.
+/// A contour that came in as a line is constrained, and an edge between vertices of lines is not one, unless
+/// the line has a gap. One that came in as samples is guessed: an edge whose opposite angles are together
+/// less than a right angle is a piece of a curve through the samples [gold1999]. On the rim of a region that
+/// must agree with the terrain: it goes on one way behind all pieces of the contour and the other way behind
+/// all ways out. Where it does not agree, the longer part of the rim, walls twice, is the contour. A vertex
+/// on no line that has flat faces all around, and is not on a curve by that rule, with two pieces at it, says
+/// that the terrain itself is flat: its faces are not treated.
 class FlatRegions {
   public:
     /// `tin`: must outlive this object. `is_water`: by face slot; slots beyond its end are none. O(n log n).
