@@ -70,10 +70,9 @@ const char* colour_of(LineRole role) {
             return "#222";
         case LineRole::Hole:
             return "#d62728";
-        case LineRole::Breakline:
-            break;
+        default:
+            return "#1f5fb4";
     }
-    return "#1f5fb4";
 }
 
 /// Panels side by side, 10 picture units a metre.
