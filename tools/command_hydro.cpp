@@ -202,6 +202,7 @@ Outcome CommandHydro::run_check(Console& console) {
     check_target();
     LevelRequest request = sort_sources(console);
     request.options.keeps_faults = true;
+    request.raster = raster;
     request.progress_end = raster ? 0.7 : 1;
     LeveledWater leveled = read_leveled_water(request, console);
     if (raster) {

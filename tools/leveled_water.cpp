@@ -1,5 +1,8 @@
 #include "leveled_water.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "tinwright/geometry/error.hpp"
@@ -72,6 +75,55 @@ RasterCheckReport check_transformed(const LeveledWater& leveled, io::RasterCells
     return report;
 }
 
+/// The cell of a raster at a place; NaN where there is none, or no value.
+double cell_at(io::RasterCells& cells, const Point3& place) {
+    const GridGeometry& grid = cells.geometry();
+    const double column = std::floor((place.x - grid.x_min) / grid.cell_width);
+    const double row = std::floor((grid.y_max - place.y) / grid.cell_height);
+    double value = kDraped;
+    if (column >= 0 && row >= 0 && column < static_cast<double>(grid.columns) &&
+        row < static_cast<double>(grid.rows)) {
+        cells.read(static_cast<std::int64_t>(row), static_cast<std::int64_t>(column), {&value, 1});
+    }
+    return value;
+}
+
+/// Gives points without z that of the raster there, or of the nearest point along the line that has one.
+void take_elevations(Breakline& line, const std::vector<Point3>& places, io::RasterCells& cells) {
+    std::vector<std::size_t> known;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        if (std::isnan(line.points[i].z)) {
+            line.points[i].z = cell_at(cells, places[i]);
+        }
+        if (!std::isnan(line.points[i].z)) {
+            known.push_back(i);
+        }
+    }
+    for (std::size_t i = 0; i < places.size() && !known.empty(); ++i) {
+        if (std::isnan(line.points[i].z)) {
+            const auto after = std::lower_bound(known.begin(), known.end(), i);
+            const bool is_last = after == known.end();
+            const bool is_before = is_last || (after != known.begin() && i - *std::prev(after) <= *after - i);
+            line.points[i].z = line.points[is_before ? *std::prev(after) : *after].z;
+        }
+    }
+}
+
+void take_elevations(io::Lines& lines, const io::Source& raster) {
+    io::RasterCells cells(raster);
+    const bool is_same = !cells.crs().is_known() || !lines.crs.is_known() || cells.crs().is_same(lines.crs);
+    for (Breakline& line : lines.lines) {
+        std::vector<Point3> places = line.points;
+        for (Point3& place : places) {
+            place.z = 0;
+        }
+        if (!is_same) {
+            io::transform_points(places, lines.crs, cells.crs());
+        }
+        take_elevations(line, places, cells);
+    }
+}
+
 void warn_all(Console& console, const std::vector<std::string>& warnings) {
     for (const std::string& warning : warnings) {
         console.warn(warning);
@@ -81,11 +133,7 @@ void warn_all(Console& console, const std::vector<std::string>& warnings) {
 }  // namespace
 
 std::vector<WaterFinding> LeveledWater::findings() const {
-    std::vector<WaterFinding> all = water.report.findings;
-    if (raster) {
-        all.insert(all.end(), raster->report.findings.begin(), raster->report.findings.end());
-    }
-    return all;
+    return raster ? raster->report.findings : water.report.findings;
 }
 
 std::int64_t LeveledWater::source_of_line(std::uint32_t line) const {
@@ -120,6 +168,9 @@ LeveledWater read_leveled_water(const LevelRequest& request, Console& console) {
     options.z_unit = leveled.samples.z_unit;
     options.progress = stage(0.5, 0.6);
     leveled.lines = io::read_lines(request.lines, options);
+    if (request.samples.empty() && request.raster) {
+        take_elevations(leveled.lines, *request.raster);
+    }
     leveled.crs = leveled.samples.crs.is_known() ? leveled.samples.crs : leveled.lines.crs;
     warn_all(console, leveled.samples.warnings);
     warn_all(console, leveled.lines.warnings);

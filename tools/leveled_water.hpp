@@ -35,7 +35,7 @@ struct LeveledWater {
     Water water;
     std::optional<CheckedRaster> raster;
 
-    /// Of the water, then of the raster.
+    /// Of the raster, where there is one; else of the water as it came.
     [[nodiscard]] std::vector<WaterFinding> findings() const;
     /// The number of the source that a line came from, from 1; those of samples follow.
     [[nodiscard]] std::int64_t source_of_line(std::uint32_t line) const;
@@ -51,6 +51,8 @@ struct LevelRequest {
     bool skip_bad = false;
     int threads = 0;
     WaterOptions options;  ///< without progress
+    /// Where there are no samples, water without z takes it from the cells of this raster.
+    std::optional<io::Source> raster;
     double progress_end = 1;
 };
 
