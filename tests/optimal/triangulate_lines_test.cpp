@@ -374,7 +374,7 @@ TEST_SUITE("optimal/triangulate_lines") {
             InputError);
         const std::vector<Breakline> open = {{{{0, 0, 0}, {10, 0, 0}, {10, 10, 0}}, LineRole::Boundary}};
         CHECK_THROWS_WITH_AS(triangulate(square_samples(3), open),
-                             "the ring of a boundary or hole is not closed: it begins at (0, 0) and ends at "
+                             "the ring of a boundary is not closed: it begins at (0, 0) and ends at "
                              "(10, 10); close it, or give --snap with a distance above the gap",
                              BreaklineError);
         const std::vector<Breakline> nothing_left = {rectangle(-1, -1, 4, 4, LineRole::Hole, 0)};

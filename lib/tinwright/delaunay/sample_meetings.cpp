@@ -24,9 +24,11 @@ std::optional<LineConflict> resolve(Tin& tin, std::span<const SampleMeeting> mee
     }
     std::sort(sorted.begin(), sorted.end());
     const bool clashes = sorted.back() - sorted.front() > options.tolerance;
-    (clashes ? duplicates.conflicting : duplicates.equal) += 1;
-    const auto of_water =
-        std::find_if(meetings.begin(), meetings.end(), [](const SampleMeeting& m) { return m.is_water; });
+    const auto of_water = std::find_if(meetings.begin(), meetings.end(),
+                                       [](const SampleMeeting& meeting) { return meeting.is_water; });
+    if (of_water == meetings.end()) {
+        (clashes ? duplicates.conflicting : duplicates.equal) += 1;
+    }
     if (of_water != meetings.end()) {
         tin.z[v.value] = of_water->z;
     } else if (options.policy == DuplicatePolicy::Last) {

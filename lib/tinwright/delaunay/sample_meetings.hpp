@@ -20,8 +20,9 @@ struct SampleMeeting {
 };
 
 /// Gives each vertex where a sample and lines meet one elevation, by the policy for duplicates, as if lines
-/// were read after all samples. Counts the meetings in `duplicates` and returns those that clash, by vertex.
-/// Throws BreaklineError under policy Error when any do that are not of water. O(n log n).
+/// were read after all samples; water's elevation stands. Counts the others in `duplicates` and returns those
+/// that clash, by vertex. Throws BreaklineError under policy Error when any do that are not of water. O(n log
+/// n).
 std::vector<LineConflict> resolve_meetings(Tin& tin, std::vector<SampleMeeting> meetings,
                                            const DuplicateOptions& options, DuplicateReport& duplicates);
 

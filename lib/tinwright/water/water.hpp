@@ -48,7 +48,8 @@ struct WaterOptions {
     std::optional<double> river_width;
     std::optional<double> max_drop;  ///< most that a river may be dug in (unit of z, >= 0)
     std::optional<double> max_lift;  ///< most that it may be lifted (unit of z, >= 0)
-    /// Greatest distance of stations on banks and on rivers without z (CRS units, > 0). Empty: `shore_width`.
+    /// Greatest distance of stations on banks and on rivers without z (CRS units, > 0). Empty: `shore_width`
+    /// on rivers, half the mean width of the water on banks.
     std::optional<double> station_spacing;
     /// Rivers are lowered by this (unit of z, > 0) in the end: enforcement, for culverts and drains. Not with
     /// lakes or banks.
