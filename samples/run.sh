@@ -2,7 +2,8 @@
 # The main job on the sample survey: installs what is missing, builds the tinwright command and makes in
 # samples/out/ a TIN (valley.gpkg), a DEM (valley.tif), a shaded picture with the TIN's edges (valley.png), the TIN
 # whose steepest face is the least steep possible (valley_gentle.gpkg), and the DEM that follows the stream and the road
-# within the surveyed area (valley_breaklines.tif), with the places where lines disagree (conflicts.gpkg).
+# within the surveyed area (valley_breaklines.tif), with the places where lines disagree (conflicts.gpkg), and the DEM with a
+# level lake and a stream that runs downhill in every cell (valley_water.tif), which is verified.
 # TINWRIGHT_BUILD_DIR (default: build/ of the checkout) holds the build.
 set -euo pipefail
 
@@ -43,6 +44,13 @@ run tinwright tin "$survey" --breaklines "$lines,layer=breaklines" --boundary "$
     --crossing-z mean --constraints conforming --conflicts "$out/conflicts.gpkg" -o "$out/valley_breaklines.gpkg" --overwrite
 run tinwright grid "$out/valley_breaklines.gpkg" --resolution 1 -o "$out/valley_breaklines.tif" --overwrite
 
+say "the same points with the lake level and the stream running downhill, then the cells of the DEM checked for both"
+water=(--lakes "$lines,layer=lake" --rivers "$lines,layer=breaklines,where=kind = 'stream bed'")
+run tinwright grid "$survey" "${water[@]}" --resolution 1 -o "$out/valley_water.tif" --overwrite
+run tinwright hydro repair "$survey" "${water[@]}" -o "$out/water" --overwrite
+run tinwright hydro check --lakes "$out/water/terrain.gpkg,layer=lake" --rivers "$out/water/terrain.gpkg,layer=breaklines" \
+    --raster "$out/valley_water.tif"
+
 say "a picture: shaded, at 0.4 m, with the TIN's edges, then halved so that the edges become thin"
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -56,6 +64,6 @@ gdal_translate -q -of PNG -r average -outsize 50% 0 "$work/picture.tif" "$work/v
 mv "$work/valley.png" "$out/valley.png"
 
 say "made"
-ls -l "$out/valley.gpkg" "$out/valley.tif" "$out/valley.png" "$out/valley_breaklines.tif" "$out/conflicts.gpkg" | awk '{ printf "%10d bytes  %s\n", $5, $9 }'
+ls -l "$out/valley.gpkg" "$out/valley.tif" "$out/valley.png" "$out/valley_breaklines.tif" "$out/conflicts.gpkg" "$out/valley_water.tif" | awk '{ printf "%10d bytes  %s\n", $5, $9 }'
 echo
 gdalinfo "$out/valley.tif" | grep -E '^(Driver|Size)|Pixel Size|NoData'
