@@ -159,6 +159,29 @@ WriteTinOptions options_for(const Made& made) {
 }  // namespace
 
 TEST_SUITE("io/tin_lines") {
+    TEST_CASE("vertices put into flat faces are known again") {
+        for (const char* const name : {"t.gpkg", "t.sqlite"}) {
+            Made made = tin_with_lines(7, true);
+            for (std::uint32_t v = 0; v < made.tin.vertex_count(); v += 3) {
+                if (made.tin.sample[v] < Tin::kInserted) {
+                    made.tin.sample[v] = Tin::kInserted;
+                }
+            }
+            const TemporaryFolder folder;
+            write_tin(made.tin, Crs(), folder.file(name), options_for(made));
+            const Tin back = make_tin(read_tin_file(parse_source(folder.file(name))));
+            REQUIRE(back.vertex_count() == made.tin.vertex_count());
+            std::size_t count = 0;
+            for (std::uint32_t v = 0; v < back.vertex_count(); ++v) {
+                CHECK(back.position({v}) == made.tin.position({v}));
+                CHECK((back.sample[v] == Tin::kInserted) == (made.tin.sample[v] == Tin::kInserted));
+                CHECK((back.sample[v] == Tin::kNoSample) == (made.tin.sample[v] == Tin::kNoSample));
+                count += back.sample[v] == Tin::kInserted ? 1U : 0U;
+            }
+            CHECK(count > 5);
+        }
+    }
+
     TEST_CASE("edges come back with their lines, and vertices with what made them") {
         const int seeds = tinwright_tests::cases(4);
         for (int seed = 1; seed <= seeds; ++seed) {
