@@ -21,12 +21,17 @@ namespace {
 
 bool is_help(const std::string& argument) { return argument == "--help" || argument == "-h"; }
 
-io::TinMetadata metadata_of(const std::string& command, const std::string& options) {
-    io::TinMetadata metadata{{"TINWRIGHT_VERSION", TINWRIGHT_VERSION}, {"TINWRIGHT_COMMAND", command}};
-    if (!options.empty()) {
-        metadata.emplace_back("TINWRIGHT_OPTIONS", options.substr(1));
+io::TinMetadata metadata_of(const std::string& command, const WaterChoice& water,
+                            const LeveledWater& leveled) {
+    WaterChoice::Roles roles;
+    for (const io::LineSlice& slice : leveled.lines.slices) {
+        roles.lakes = roles.lakes || slice.role == LineRole::Lake;
+        roles.rivers = roles.rivers || slice.role == LineRole::River;
+        roles.banks = roles.banks || slice.role == LineRole::Bank;
     }
-    return metadata;
+    return {{"TINWRIGHT_VERSION", TINWRIGHT_VERSION},
+            {"TINWRIGHT_COMMAND", command},
+            {"TINWRIGHT_OPTIONS", water.canonical(roles).substr(1)}};
 }
 
 }  // namespace
@@ -212,7 +217,7 @@ Outcome CommandHydro::run_check(Console& console) {
     std::vector<std::string> outputs;
     if (!output.path.empty()) {
         write_findings(leveled, output.path, output.driver, output.overwrite,
-                       metadata_of(name(), water.canonical()))
+                       metadata_of(name(), water, leveled))
             ->commit();
         outputs.push_back(output.path);
     }
@@ -229,7 +234,7 @@ Outcome CommandHydro::run_repair(Console& console) {
     const LeveledWater leveled = read_leveled_water(sort_sources(console), console);
     const HydroPlan plan = plan_hydro(leveled, output.path, output.overwrite, all_sources());
     const std::vector<std::string> written =
-        write_hydro(leveled, plan, output.overwrite, metadata_of(name(), water.canonical()));
+        write_hydro(leveled, plan, output.overwrite, metadata_of(name(), water, leveled));
     std::vector<std::string> outputs;
     for (const RepairPlan::File& file : plan.lines.files) {
         outputs.push_back(file.target);

@@ -202,6 +202,7 @@ Outcome CommandTin::run_tin(Console& console) {
         const io::TinMetadata flat = flat_faces_metadata(*surface.flat_faces);
         options.metadata.insert(options.metadata.end(), flat.begin(), flat.end());
     }
+    options.is_water_face = surface.is_water_face;
     options.origins = std::move(surface.origins.vertices);
     options.lines = std::move(surface.origins.lines);
     options.is_water_face = surface.is_water_face;

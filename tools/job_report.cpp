@@ -144,7 +144,7 @@ std::string duplicates_line(const JobReport& report, const DuplicateReport& dupl
     }
     if (duplicates.conflicting > 0) {
         text += (text.empty() ? "" : ", ") + std::to_string(duplicates.conflicting) + " conflicting (" +
-                report.duplicate_policy + " taken)";
+                (report.duplicate_policy == "error" ? "that of the water" : report.duplicate_policy) + " taken)";
     }
     return text;
 }
@@ -327,6 +327,8 @@ std::string report_text(const JobReport& report, const Surface& surface, const R
         for (const auto& [label, line] : water_lines(*surface.water)) {
             add(label, line);
         }
+    } else if (const std::string water = file_water_text(surface.metadata); !water.empty()) {
+        add("water", water);
     }
     if (report.graph) {
         add("graph",

@@ -191,8 +191,7 @@ std::string WaterChoice::first_given() const {
     return {};
 }
 
-std::string WaterChoice::canonical() const {
-    const Roles given = roles();
+std::string WaterChoice::canonical(const Roles& given) const {
     std::string text;
     const auto add = [&text](const char* option, const std::optional<double>& value) {
         text += value ? " " + std::string(option) + " " + decimal_text(*value) : std::string();

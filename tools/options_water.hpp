@@ -53,7 +53,8 @@ struct WaterChoice {
     /// The first of these options that was given, or empty.
     [[nodiscard]] std::string first_given() const;
     /// The options that affect levels, in a fixed order, each after a blank; empty without water.
-    [[nodiscard]] std::string canonical() const;
+    [[nodiscard]] std::string canonical() const { return canonical(roles()); }
+    [[nodiscard]] std::string canonical(const Roles& given) const;
 
   private:
     [[nodiscard]] std::vector<std::pair<const char*, const std::string*>> level_texts() const;

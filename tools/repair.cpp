@@ -96,7 +96,7 @@ RepairPlan plan_repair(const io::Lines& lines, const std::string& folder, bool o
     const bool is_there = is_virtual(folder) || std::filesystem::exists(folder, ignored);
     if (is_there && !is_virtual(folder) && !std::filesystem::is_directory(folder, ignored)) {
         throw IoError("cannot write into " + io::quoted(folder) +
-                      ": it is a file, and --repair needs a folder");
+                      ": it is a file, and repaired lines need a folder");
     }
     RepairPlan plan;
     plan.folder = folder;

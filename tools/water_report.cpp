@@ -273,6 +273,22 @@ io::TinMetadata water_metadata(const WaterSummary& summary) {
     return metadata;
 }
 
+std::string file_water_text(const io::TinMetadata& metadata) {
+    constexpr std::array<std::array<std::string_view, 3>, 3> kCounts{{{kLakesKey, "lake", "lakes"},
+                                                                      {kReachesKey, "reach", "reaches"},
+                                                                      {kSectionsKey, "section", "sections"}}};
+    std::string text;
+    for (const auto& [key, value] : water_metadata_of(metadata)) {
+        for (const auto& [of_kind, one, many] : kCounts) {
+            if (key == of_kind) {
+                text += (text.empty() ? "" : ", ") + value + " " + std::string(value == "1" ? one : many);
+            }
+        }
+        text += key == kBurnKey ? ", burnt in by " + value : std::string();
+    }
+    return text;
+}
+
 io::TinMetadata water_metadata_of(const io::TinMetadata& metadata) {
     constexpr std::array<std::string_view, 4> kKeys{kLakesKey, kReachesKey, kSectionsKey, kBurnKey};
     io::TinMetadata of_water;

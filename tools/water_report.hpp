@@ -45,7 +45,9 @@ std::vector<std::pair<std::string, std::string>> water_lines(const WaterSummary&
 std::vector<std::string> water_warnings(const WaterSummary& summary);
 /// TINWRIGHT_LAKES and what belongs to it (docs/formats.md).
 io::TinMetadata water_metadata(const WaterSummary& summary);
-/// The same of a TIN file, for what is made of it.
+/// What a TIN file says of its water, for people: "1 lake, 3 reaches, 12 sections"; empty without.
+std::string file_water_text(const io::TinMetadata& metadata);
+/// Its keys of water, for what is made of it.
 io::TinMetadata water_metadata_of(const io::TinMetadata& metadata);
 
 }  // namespace tinwright::tools
