@@ -205,7 +205,6 @@ Outcome CommandTin::run_tin(Console& console) {
     options.is_water_face = surface.is_water_face;
     options.origins = std::move(surface.origins.vertices);
     options.lines = std::move(surface.origins.lines);
-    options.is_water_face = surface.is_water_face;
     options.progress = console.progress().stage(0.7, 1);
     const auto start = Clock::now();
     const io::WrittenTin written = io::write_tin(surface.tin, surface.crs, output.path, options);
