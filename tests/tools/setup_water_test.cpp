@@ -28,35 +28,35 @@ std::string of_tin(std::vector<std::string> arguments) {
     return complaint<CommandTin>(arguments);
 }
 
-CommandTin tin_with(std::vector<std::string> arguments) {
+LineOptions lines_with(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), {"a.csv", "-o", "b.gpkg"});
     CommandTin tin;
     tin.setup(arguments);
-    return tin;
+    return tin.lines;
 }
 
 }  // namespace
 
 TEST_SUITE("tools/setup_water") {
     TEST_CASE("water joins the lines, each source with its role") {
-        const CommandTin tin =
-            tin_with({"--rivers", "r.gpkg,z=drape", "--lakes", "l.gpkg,z=level", "--banks", "b.shp",
-                      "--lakes", "m.gpkg", "--breaklines", "c.gpkg", "--oo", "A=1"});
-        REQUIRE(tin.lines.sources.size() == 5);
-        CHECK(tin.lines.sources[0].role == LineRole::Breakline);
-        CHECK(tin.lines.sources[1].role == LineRole::Lake);
-        CHECK(tin.lines.sources[1].source.z == "level");
-        CHECK(tin.lines.sources[2].source.path == "m.gpkg");
-        CHECK(tin.lines.sources[3].role == LineRole::Bank);
-        CHECK(tin.lines.sources[4].role == LineRole::River);
-        CHECK(tin.lines.sources[4].source.z == "drape");
-        CHECK(tin.lines.sources[4].source.open_options == std::vector<std::string>{"A=1"});
-        CHECK(tin.lines.has_water());
+        const LineOptions lines =
+            lines_with({"--rivers", "r.gpkg,z=drape", "--lakes", "l.gpkg,z=level", "--banks", "b.shp",
+                        "--lakes", "m.gpkg", "--breaklines", "c.gpkg", "--oo", "A=1"});
+        REQUIRE(lines.sources.size() == 5);
+        CHECK(lines.sources[0].role == LineRole::Breakline);
+        CHECK(lines.sources[1].role == LineRole::Lake);
+        CHECK(lines.sources[1].source.z == "level");
+        CHECK(lines.sources[2].source.path == "m.gpkg");
+        CHECK(lines.sources[3].role == LineRole::Bank);
+        CHECK(lines.sources[4].role == LineRole::River);
+        CHECK(lines.sources[4].source.z == "drape");
+        CHECK(lines.sources[4].source.open_options == std::vector<std::string>{"A=1"});
+        CHECK(lines.has_water());
     }
 
     TEST_CASE("water knows its defaults, and says them") {
-        const CommandTin tin = tin_with({"--lakes", "l.gpkg", "--rivers", "r.gpkg"});
-        const WaterOptions options = tin.lines.water_options();
+        const LineOptions lines = lines_with({"--lakes", "l.gpkg", "--rivers", "r.gpkg"});
+        const WaterOptions options = lines.water_options();
         CHECK(options.lake_level.kind == LevelRule::Kind::Percentile);
         CHECK(options.lake_level.percent == 5);
         CHECK_FALSE(options.shore_width.has_value());
@@ -65,44 +65,43 @@ TEST_SUITE("tools/setup_water") {
         CHECK(options.river_fit == RiverFit::Isotonic);
         CHECK(options.meeting_levels == CrossingPolicy::Error);
         CHECK_FALSE(options.keeps_faults);
-        CHECK(tin.lines.water.canonical() ==
-              " --lake-level percentile:5 --flow digitized --river-fit isotonic");
-        CHECK(tin_with({}).lines.water.canonical().empty());
+        CHECK(lines.water.canonical() == " --lake-level percentile:5 --flow digitized --river-fit isotonic");
+        CHECK(lines_with({}).water.canonical().empty());
     }
 
     TEST_CASE("every number of water is taken, and told in one fixed order") {
-        const CommandTin tin = tin_with({"--level-tolerance",
-                                         "0.01",
-                                         "--station-spacing",
-                                         "5",
-                                         "--max-lift",
-                                         "0",
-                                         "--max-drop",
-                                         "1.50",
-                                         "--river-width",
-                                         "0",
-                                         "--river-fit",
-                                         "min",
-                                         "--flow",
-                                         "auto",
-                                         "--shore-clearance",
-                                         "0.1",
-                                         "--shore-width",
-                                         "+12",
-                                         "--lake-level",
-                                         "percentile:12.5",
-                                         "--rivers",
-                                         "r.gpkg",
-                                         "--lakes",
-                                         "l.gpkg",
-                                         "--crossing-z",
-                                         "min"});
-        CHECK(tin.lines.water.canonical() ==
+        const LineOptions lines = lines_with({"--level-tolerance",
+                                              "0.01",
+                                              "--station-spacing",
+                                              "5",
+                                              "--max-lift",
+                                              "0",
+                                              "--max-drop",
+                                              "1.50",
+                                              "--river-width",
+                                              "0",
+                                              "--river-fit",
+                                              "min",
+                                              "--flow",
+                                              "auto",
+                                              "--shore-clearance",
+                                              "0.1",
+                                              "--shore-width",
+                                              "+12",
+                                              "--lake-level",
+                                              "percentile:12.5",
+                                              "--rivers",
+                                              "r.gpkg",
+                                              "--lakes",
+                                              "l.gpkg",
+                                              "--crossing-z",
+                                              "min"});
+        CHECK(lines.water.canonical() ==
               " --lake-level percentile:12.5 --shore-clearance 0.1 --shore-width 12 --flow auto --river-fit "
               "min "
               "--river-width 0 --max-drop 1.5 --max-lift 0 --station-spacing 5 --level-tolerance 0.01");
-        CHECK(tin.lines.canonical().find(" --crossing-z min --lake-level") != std::string::npos);
-        const WaterOptions options = tin.lines.water_options();
+        CHECK(lines.canonical().find(" --crossing-z min --lake-level") != std::string::npos);
+        const WaterOptions options = lines.water_options();
         CHECK(options.shore_width == 12.0);
         CHECK(options.max_lift == 0.0);
         CHECK(options.meeting_levels == CrossingPolicy::Min);
@@ -171,10 +170,10 @@ TEST_SUITE("tools/setup_water") {
     }
 
     TEST_CASE("burning only digs unless it is told how to fit") {
-        CHECK(tin_with({"--rivers", "r.gpkg", "--burn", "2"}).lines.water.canonical() ==
+        CHECK(lines_with({"--rivers", "r.gpkg", "--burn", "2"}).water.canonical() ==
               " --flow digitized --river-fit min --burn 2");
-        CHECK(tin_with({"--rivers", "r.gpkg", "--burn", "2", "--river-fit", "isotonic"})
-                  .lines.water_options()
+        CHECK(lines_with({"--rivers", "r.gpkg", "--burn", "2", "--river-fit", "isotonic"})
+                  .water_options()
                   .river_fit == RiverFit::Isotonic);
     }
 
