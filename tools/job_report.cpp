@@ -144,7 +144,7 @@ std::string duplicates_line(const JobReport& report, const DuplicateReport& dupl
     }
     if (duplicates.conflicting > 0) {
         text += (text.empty() ? "" : ", ") + std::to_string(duplicates.conflicting) + " conflicting (" +
-                (report.duplicate_policy == "error" ? "that of the water" : report.duplicate_policy) + " taken)";
+                report.duplicate_policy + " taken)";
     }
     return text;
 }
