@@ -23,20 +23,25 @@ WaterAreas::WaterAreas(const NodedLines& noded, std::span<const Breakline> lines
     }
     std::sort(polygons_.begin(), polygons_.end());
     polygons_.erase(std::unique(polygons_.begin(), polygons_.end()), polygons_.end());
+    std::vector<bool> has_box(polygons_.size());
+    boxes_.resize(polygons_.size());
     for (const NodedPiece& piece : noded.pieces) {
         if (is_side(piece)) {
             CleanLine side;
             side.keys = {twice(noded.keys[piece.a]), twice(noded.keys[piece.b])};
             side.z.resize(2);
             const KeyBox box = KeyBox::of(side.keys);
-            sides_.empty() ? void(box_ = box) : box_.add(box);
             sides_.push_back(std::move(side));
             const auto place = std::lower_bound(polygons_.begin(), polygons_.end(), polygon_of(piece));
-            polygon_of_.push_back(static_cast<std::uint32_t>(place - polygons_.begin()));
+            const auto polygon = static_cast<std::size_t>(place - polygons_.begin());
+            has_box[polygon] ? boxes_[polygon].add(box) : void(boxes_[polygon] = box);
+            has_box[polygon] = true;
+            polygon_of_.push_back(static_cast<std::uint32_t>(polygon));
             ends_.emplace_back(piece.a, piece.b);
         }
     }
     segments_.emplace(sides_);
+    tree_of_boxes_.emplace(boxes_);
 }
 
 std::optional<std::uint32_t> WaterAreas::around(const NodedPiece& piece) const {
@@ -46,12 +51,23 @@ std::optional<std::uint32_t> WaterAreas::around(const NodedPiece& piece) const {
 }
 
 std::optional<std::uint32_t> WaterAreas::find(Key2 key) const {
-    if (is_empty() || !box_.meets({key, key})) {
+    double right = key.x;  // of the boxes that the key is in
+    bool is_in_box = false;
+    tree_of_boxes_->visit_meeting(
+        {key, key}, [](const KeyBox&) { return false; },
+        [&](std::uint32_t polygon) {
+            right = std::max(right, boxes_[polygon].high.x);
+            return is_in_box = true;
+        });
+    if (!is_in_box) {
         return std::nullopt;
     }
     std::vector<std::uint32_t> passed;  // polygons whose rings the way to the right passes, once a passing
     std::vector<std::uint32_t> touched;
-    segments_->visit_meeting({key, {box_.high.x, key.y}}, [&](const LineSegments::Segment& segment) {
+    segments_->visit_meeting({key, {right, key.y}}, [&](const LineSegments::Segment& segment) {
+        if (!boxes_[polygon_of_[segment.line]].meets({key, key})) {
+            return;  // perhaps not all of it is on the way
+        }
         const Key2 a = segments_->start(segment);
         const Key2 b = segments_->end(segment);
         if (is_on_segment(key, a, b)) {

@@ -32,7 +32,8 @@ class WaterAreas {
         return polygons_[index];
     }
     /// A polygon that has the key strictly inside: of several the first, as a number for `level`; keys on a
-    /// polygon's ring are not inside it. Exact. O(sqrt n + k) in practice for k ring segments to the right.
+    /// polygon's ring are not inside it. Exact. O(sqrt n + k) in practice for k ring segments to the right of
+    /// it, in the boxes of polygons whose box it is in.
     [[nodiscard]] std::optional<std::uint32_t> around(Key2 key) const { return find(twice(key)); }
     /// The same for the middle of a piece.
     [[nodiscard]] std::optional<std::uint32_t> around(const NodedPiece& piece) const;
@@ -57,8 +58,9 @@ class WaterAreas {
     std::vector<CleanLine> sides_;
     std::vector<std::uint32_t> polygon_of_;                      // each side: index of its polygon
     std::vector<std::pair<std::uint32_t, std::uint32_t>> ends_;  // of each side: vertices
-    KeyBox box_{};
     std::optional<LineSegments> segments_;
+    std::vector<KeyBox> boxes_;  // one a polygon
+    std::optional<BoxTree> tree_of_boxes_;
     std::map<std::uint32_t, std::unique_ptr<Surface>> surfaces_;
 };
 
