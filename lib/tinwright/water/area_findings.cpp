@@ -2,14 +2,89 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
-#include <set>
+#include <utility>
+
+#include "tinwright/water/fall_graph.hpp"
 
 namespace tinwright {
 
 namespace {
 
 using Kind = WaterFinding::Kind;
+
+/// The lakes that water comes to next from each place. Most places have those of the place below, so sets of
+/// lakes are kept once.
+class LakesBelow {
+  public:
+    LakesBelow(const WaterNetwork& network, const WaterFlow& flow) : network_(network), flow_(flow) {
+        const FallGraph graph(network.node_count, falls_of_rest());
+        steps_ = find_flow_steps(graph);
+        sets_.emplace_back();  // none
+        set_of_.assign(steps_.count, 0);
+        std::vector<std::vector<std::uint32_t>> members(steps_.count);
+        for (std::uint32_t node = 0; node < network.node_count; ++node) {
+            members[steps_.step[node]].push_back(node);
+        }
+        for (std::size_t step = steps_.count; step-- > 0;) {
+            for (const std::uint32_t node : members[step]) {
+                set_of_[step] = node < network.first_section ? add_set({node}) : unite(set_of_[step], node);
+            }
+        }
+    }
+
+    std::vector<Fall> find_falls() {
+        std::vector<Fall> falls;
+        for (std::uint32_t lake = 0; lake < network_.first_section; ++lake) {
+            const std::uint32_t first = flow_.first_of[lake];
+            for (const std::uint32_t below : sets_[unite(0, first)]) {
+                if (below != first) {
+                    falls.push_back({lake, below});
+                }
+            }
+        }
+        return falls;
+    }
+
+  private:
+    /// Those that do not leave lakes.
+    [[nodiscard]] std::vector<Fall> falls_of_rest() const {
+        return {std::lower_bound(flow_.falls.begin(), flow_.falls.end(), Fall{network_.first_section, 0}),
+                flow_.falls.end()};
+    }
+
+    std::size_t add_set(std::vector<std::uint32_t> lakes) {
+        sets_.push_back(std::move(lakes));
+        return sets_.size() - 1;
+    }
+
+    /// A set and all that is below a node.
+    std::size_t unite(std::size_t set, std::uint32_t node) {
+        const auto lower_than = [](const Fall& fall, std::uint32_t sought) { return fall.upper < sought; };
+        for (auto fall = std::lower_bound(flow_.falls.begin(), flow_.falls.end(), node, lower_than);
+             fall != flow_.falls.end() && fall->upper == node; ++fall) {
+            set = unite_sets(set, set_of_[steps_.step[fall->lower]]);
+        }
+        return set;
+    }
+
+    std::size_t unite_sets(std::size_t a, std::size_t b) {
+        if (a == b || sets_[b].empty()) {
+            return a;
+        }
+        std::vector<std::uint32_t> both;
+        std::set_union(sets_[a].begin(), sets_[a].end(), sets_[b].begin(), sets_[b].end(),
+                       std::back_inserter(both));
+        return both == sets_[a] ? a : both == sets_[b] ? b : add_set(std::move(both));
+    }
+
+    const WaterNetwork& network_;
+    const WaterFlow& flow_;
+    FlowSteps steps_;
+    std::vector<std::vector<std::uint32_t>> sets_;  // of lakes, ascending
+    std::vector<std::size_t> set_of_;               // of each step
+};
 
 }  // namespace
 
@@ -51,28 +126,10 @@ std::vector<WaterFinding> find_passages(const WaterNetwork& network, std::span<c
 }
 
 std::vector<Fall> find_lake_falls(const WaterNetwork& network, const WaterFlow& flow) {
-    std::vector<Fall> falls;
-    const auto lower_than = [](const Fall& fall, std::uint32_t node) { return fall.upper < node; };
-    for (std::uint32_t lake = 0; lake < network.first_section && network.first_section > 1; ++lake) {
-        std::vector<std::uint32_t> stack = {flow.first_of[lake]};
-        std::set<std::uint32_t> seen(stack.begin(), stack.end());
-        while (!stack.empty()) {
-            const std::uint32_t node = stack.back();
-            stack.pop_back();
-            for (auto fall = std::lower_bound(flow.falls.begin(), flow.falls.end(), node, lower_than);
-                 fall != flow.falls.end() && fall->upper == node; ++fall) {
-                if (!seen.insert(fall->lower).second) {
-                    continue;
-                }
-                if (fall->lower >= network.first_section) {
-                    stack.push_back(fall->lower);
-                } else {
-                    falls.push_back({lake, fall->lower});
-                }
-            }
-        }
+    if (network.first_section < 2) {
+        return {};
     }
-    return falls;
+    return LakesBelow(network, flow).find_falls();
 }
 
 std::vector<WaterFinding> find_disorder(const WaterNetwork& network, const WaterFlow& flow,

@@ -16,8 +16,8 @@ namespace tinwright {
 std::vector<WaterFinding> find_passages(const WaterNetwork& network, std::span<const double> levels,
                                         double tolerance);
 
-/// From each lake to the lakes that water from it comes to next: nodes. O(lakes times the falls between
-/// them).
+/// From each lake to the lakes that water from it comes to next: nodes, ascending. O(n log n), and the lakes
+/// below each place where ways to different ones part.
 std::vector<Fall> find_lake_falls(const WaterNetwork& network, const WaterFlow& flow);
 
 /// LakesOutOfOrder, by the falls. `levels`: those that lakes were given, one a node.
