@@ -325,4 +325,69 @@ TEST_SUITE("water/water") {
                              [](const Point3& a, const Point3& b) { return a.z < b.z; }));
         CHECK(middle.front().x < middle.back().x);
     }
+
+    TEST_CASE("rivers that end between banks are no outlets unless they come along the water") {
+        const auto samples = lattice_samples(-20, 0, 120, 100, 5, slope_west);
+        const Breakline banks = rectangle(LineRole::Bank, 0, 0, 40, 100, 50, kDraped);
+        const Breakline tributary = river({{30, 90, kDraped}, {30, 45, kDraped}});
+        const Breakline middle = river({{0, 45, kDraped}, {100, 45, kDraped}});
+        const Breakline other_banks = rectangle(LineRole::Bank, 1, 30, 52, 35, 53, kDraped);
+        for (const std::vector<Breakline>& lines :
+             {std::vector{banks, tributary}, {banks, tributary, middle}, {banks, other_banks, middle}}) {
+            const Water water = level_water(samples, lines);
+            CHECK(water.report.banks[0].z_up > 99.3);
+            CHECK(water.report.banks[0].z_down < 90.7);
+        }
+    }
+
+    TEST_CASE("water between banks runs the way that a river from bank to bank was drawn") {
+        const auto samples = lattice_samples(-20, 0, 120, 100, 5, slope_west);
+        const Breakline banks = rectangle(LineRole::Bank, 0, 0, 40, 100, 50, kDraped);
+        // In two parts, the second one short.
+        const Water water =
+            level_water(samples, std::vector{banks, river({{100, 45, kDraped}, {3, 45, kDraped}}),
+                                             river({{3, 45, kDraped}, {0, 45, kDraped}})});
+        REQUIRE(water.report.reaches.size() == 1);
+        CHECK(water.report.reaches[0].points.front().x > water.report.reaches[0].points.back().x);
+        const std::vector<double> z = levels(water.lines[1]);
+        CHECK(std::is_sorted(z.rbegin(), z.rend()));
+    }
+
+    TEST_CASE("two lakes keep their levels when banks tie them together at a weir") {
+        const auto samples = lattice_samples(0, 0, 100, 100, 5, slope_west);
+        for (const double top : {52.0, 60.0}) {
+            const Water water =
+                level_water(samples, std::vector{rectangle(LineRole::Lake, 0, 10, 40, 40, 60, 15),
+                                                 rectangle(LineRole::Lake, 1, 44, 40, 70, 60, 20),
+                                                 rectangle(LineRole::Bank, 2, 40, 48, 44, top, kDraped)});
+            for (const double z : levels(water.lines[0])) {
+                CHECK(z == 15);
+            }
+            for (const double z : levels(water.lines[1])) {
+                CHECK(z == 20);
+            }
+            for (std::size_t i = 3; i < water.lines.size(); ++i) {
+                CHECK(water.lines[i].points[0].z == water.lines[i].points[1].z);
+            }
+            CHECK((count(water, Kind::BanksNotLevel) > 0) == (top == 60));
+        }
+    }
+
+    TEST_CASE("lakes above a long river are found in order, each with the next lakes below") {
+        // Lakes 0 and 1 drain to a braid that ends in lake 2, from which water runs to lake 3.
+        const auto samples = lattice_samples(0, 0, 100, 100, 5, slope_west);
+        const std::vector<Breakline> lines = {rectangle(LineRole::Lake, 0, 5, 10, 10, 20, 50),
+                                              rectangle(LineRole::Lake, 1, 5, 60, 10, 70, 40),
+                                              rectangle(LineRole::Lake, 2, 60, 30, 70, 50, 45),
+                                              rectangle(LineRole::Lake, 3, 80, 30, 90, 50, 46),
+                                              river({{10, 15, 50}, {20, 40, 49}, {40, 40, 48}, {60, 40, 47}}),
+                                              river({{10, 65, 50}, {20, 40, 49}, {40, 45, 48}, {60, 40, 47}}),
+                                              river({{70, 40, 45}, {80, 40, 45}})};
+        const Water water = level_water(samples, lines);
+        REQUIRE(count(water, Kind::LakesOutOfOrder) == 2);
+        const WaterFinding& above = first(water, Kind::LakesOutOfOrder);
+        CHECK(above.line == 1);
+        CHECK(above.other_line == 2);
+        CHECK(above.amount == 5);
+    }
 }

@@ -283,14 +283,34 @@ class Leveler {
                 if (!section.is_straight) {
                     continue;
                 }
-                Breakline line{{}, LineRole::Section, lines_[ring].is_sharp, bank.polygon.number};
-                for (const auto& [r, i] : section.vertices) {
-                    line.points.push_back(point_of(bank.rings[r][i]));
+                const auto end = [&](std::size_t k) {
+                    const auto& [r, i] = section.vertices[k];
+                    return point_of(bank.rings[r][i]);
+                };
+                const Point3 a = end(0);
+                const Point3 b = end(1);
+                if (a.z != b.z) {
+                    a.z > b.z ? add_slanting(ring, a, b) : add_slanting(ring, b, a);
+                    continue;
                 }
+                Breakline line{{a, b}, LineRole::Section, lines_[ring].is_sharp, bank.polygon.number};
                 out_.lines.push_back(std::move(line));
                 out_.origin.push_back(ring);
             }
         }
+    }
+
+    /// A section between water of two levels, which others set: lakes on both sides of a weir, say.
+    void add_slanting(std::uint32_t ring, const Point3& high, const Point3& low) {
+        WaterFinding finding;
+        finding.kind = Kind::BanksNotLevel;
+        finding.line = ring;
+        finding.location = {high.x, high.y};
+        finding.z = high.z;
+        finding.other_z = low.z;
+        finding.amount = high.z - low.z;
+        finding.length = std::hypot(high.x - low.x, high.y - low.y);
+        add(finding);
     }
 
     [[nodiscard]] Point3 point_of(std::uint32_t v) const {

@@ -1,9 +1,10 @@
 #include "tinwright/water/water_flow.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <numeric>
+#include <utility>
+
+#include "tinwright/water/bank_outlets.hpp"
 
 namespace tinwright {
 
@@ -36,10 +37,7 @@ class FlowFinder {
         : network_(network), elevations_(elevations) {}
 
     WaterFlow find(FlowRule rule) {
-        NodeSets same(network_.node_count);
-        for (const auto& [a, b] : network_.equal) {
-            same.join(a, b);
-        }
+        NodeSets same = join_equal();
         flow_.first_of.resize(network_.node_count);
         for (std::uint32_t node = 0; node < network_.node_count; ++node) {
             flow_.first_of[node] = same.find(node);
@@ -55,6 +53,45 @@ class FlowFinder {
     }
 
   private:
+    /// Sections that are tied to several lakes have the level of the highest: lakes keep their own.
+    [[nodiscard]] NodeSets join_equal() const {
+        std::vector<std::vector<std::uint32_t>> tied(network_.equal.empty() ? 0 : network_.node_count);
+        std::vector<std::uint32_t> lakes;
+        for (const auto& [a, b] : network_.equal) {
+            tied[a].push_back(b);
+            tied[b].push_back(a);
+            if (a < network_.first_section) {
+                lakes.push_back(a);
+            }
+        }
+        std::sort(lakes.begin(), lakes.end(), [this](std::uint32_t a, std::uint32_t b) {
+            return std::pair(elevations_[b], a) < std::pair(elevations_[a], b);
+        });
+        NodeSets same(network_.node_count);
+        std::vector<bool> is_taken(network_.node_count);
+        std::vector<std::uint32_t> todo;
+        for (const std::uint32_t lake : lakes) {
+            todo.assign(is_taken[lake] ? 0 : 1, lake);
+            while (!todo.empty()) {
+                const std::uint32_t node = todo.back();
+                todo.pop_back();
+                is_taken[node] = true;
+                for (const std::uint32_t next : tied[node]) {
+                    if (next >= network_.first_section && !is_taken[next]) {
+                        same.join(lake, next);
+                        todo.push_back(next);
+                    }
+                }
+            }
+        }
+        for (const auto& [a, b] : network_.equal) {
+            if (!is_taken[a] && !is_taken[b]) {
+                same.join(a, b);
+            }
+        }
+        return same;
+    }
+
     /// Gives the chosen runs a direction. Where `outlets` has none for a connected part, elevations decide.
     template <class IsChosen>
     void orient(const IsChosen& is_chosen, const std::vector<std::uint32_t>& outlets) {
@@ -85,44 +122,12 @@ class FlowFinder {
         }
     }
 
-    [[nodiscard]] bool is_section(std::uint32_t node) const {
-        return node >= network_.first_section && node < network_.first_vertex;
-    }
-
-    /// Where rivers, as they were drawn, leave banks, or end between them.
     [[nodiscard]] std::vector<std::uint32_t> bank_outlets() const {
-        std::vector<std::uint32_t> outlets;
-        for (const WaterRun& run : network_.runs) {
-            if (!run.is_between_banks && is_section(run.from)) {
-                outlets.push_back(flow_.first_of[run.from]);
-            }
-        }
-        for (std::uint32_t line = 0; line < network_.prepared.size(); ++line) {
-            if (network_.prepared[line].role != LineRole::River || network_.chain(line).empty()) {
-                continue;
-            }
-            const std::uint32_t end = network_.chain(line).back();
-            if (network_.is_between_banks[end]) {
-                outlets.push_back(nearest_bank_end(network_.key(end)));
-            }
+        std::vector<std::uint32_t> outlets = find_bank_outlets(network_);
+        for (std::uint32_t& outlet : outlets) {
+            outlet = flow_.first_of[outlet];
         }
         return outlets;
-    }
-
-    [[nodiscard]] std::uint32_t nearest_bank_end(Key2 key) const {
-        double least = std::numeric_limits<double>::infinity();
-        std::uint32_t nearest = network_.first_section;
-        for (const BankWater& bank : network_.banks) {
-            for (const std::uint32_t end : bank.network.ends) {
-                const Point2 middle = bank.network.sections[end].middle;
-                const double distance = std::hypot(middle.x - key.x, middle.y - key.y);
-                if (distance < least) {
-                    least = distance;
-                    nearest = bank.first_node + end;
-                }
-            }
-        }
-        return flow_.first_of[nearest];
     }
 
     void make_falls() {

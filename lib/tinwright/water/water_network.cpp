@@ -110,6 +110,7 @@ class NetworkMaker {
                 lake_by_number_[polygon.number] = static_cast<std::uint32_t>(out_.lakes.size());
                 out_.lakes.push_back(std::move(polygon));
             } else {
+                bank_by_number_[polygon.number] = static_cast<std::uint32_t>(out_.banks.size());
                 out_.banks.push_back({std::move(polygon), {}, 0, {}});
             }
         }
@@ -132,7 +133,10 @@ class NetworkMaker {
         }
         for (const NodedPiece& piece : out_.noded.pieces) {
             const bool is_river = out_.prepared[piece.line].role == LineRole::River;
-            is_piece_in_water_.push_back(is_river && areas.around(piece).has_value());
+            const auto area = is_river ? areas.around(piece) : std::nullopt;
+            const bool is_in_bank = area && areas.polygon(*area).first == LineRole::Bank;
+            is_piece_in_water_.push_back(area.has_value());
+            out_.piece_bank.push_back(is_in_bank ? bank_by_number_.at(areas.polygon(*area).second) : kNoNode);
         }
     }
 
@@ -266,6 +270,7 @@ class NetworkMaker {
     const NetworkOptions& options_;
     WaterNetwork& out_;
     std::map<std::uint32_t, std::uint32_t> lake_by_number_;
+    std::map<std::uint32_t, std::uint32_t> bank_by_number_;
     std::vector<std::uint32_t> lake_around_;  // of each vertex: a lake that it is strictly inside of
     std::vector<bool> is_piece_in_water_;     // of each piece: of a river inside a lake or between banks
 };
@@ -274,6 +279,12 @@ class NetworkMaker {
 
 double WaterNetwork::distance(std::uint32_t a, std::uint32_t b) const {
     return std::sqrt(squared_distance(key(a), key(b))) * lattice.quantum();
+}
+
+std::uint32_t WaterNetwork::bank_around(std::uint32_t line, std::uint32_t a, std::uint32_t b) const {
+    const NodedPiece sought{std::min(a, b), std::max(a, b), line, 0};
+    const auto place = std::lower_bound(noded.pieces.begin(), noded.pieces.end(), sought);
+    return piece_bank[static_cast<std::size_t>(place - noded.pieces.begin())];
 }
 
 WaterFinding make_finding(WaterFinding::Kind kind, const WaterNetwork& network, std::uint32_t line,

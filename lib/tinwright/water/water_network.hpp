@@ -70,13 +70,14 @@ struct WaterNetwork {
     std::vector<WaterRun> runs;
 
     std::size_t node_count = 0;
-    std::uint32_t first_section = 0;       ///< nodes below are lakes
-    std::uint32_t first_vertex = 0;        ///< nodes from here on are vertices of rivers
-    std::vector<std::uint32_t> node_of;    ///< of each vertex; kNoNode: banks decide, see `stand_of`
-    std::vector<std::uint32_t> vertex_of;  ///< of each node from `first_vertex` on
-    std::vector<BankStand> stand_of;       ///< of each vertex on a ring of banks
-    std::vector<bool> is_between_banks;    ///< of each vertex: strictly inside
-    std::vector<bool> is_in_lake;          ///< of each vertex: strictly inside
+    std::uint32_t first_section = 0;        ///< nodes below are lakes
+    std::uint32_t first_vertex = 0;         ///< nodes from here on are vertices of rivers
+    std::vector<std::uint32_t> node_of;     ///< of each vertex; kNoNode: banks decide, see `stand_of`
+    std::vector<std::uint32_t> vertex_of;   ///< of each node from `first_vertex` on
+    std::vector<BankStand> stand_of;        ///< of each vertex on a ring of banks
+    std::vector<bool> is_between_banks;     ///< of each vertex: strictly inside
+    std::vector<bool> is_in_lake;           ///< of each vertex: strictly inside
+    std::vector<std::uint32_t> piece_bank;  ///< of each piece of a river: the banks it is between, or kNoNode
     /// Vertices of a ring in two banks, or whose lake has a level of its own: these nodes have one level.
     std::vector<std::pair<std::uint32_t, std::uint32_t>> equal;
 
@@ -86,6 +87,8 @@ struct WaterNetwork {
     }
     [[nodiscard]] Key2 key(std::uint32_t vertex) const { return noded.keys[vertex]; }
     [[nodiscard]] double distance(std::uint32_t a, std::uint32_t b) const;  ///< of vertices, CRS units
+    /// Index of the banks that the piece of a river between two vertices is between, or kNoNode.
+    [[nodiscard]] std::uint32_t bank_around(std::uint32_t line, std::uint32_t a, std::uint32_t b) const;
     /// The node at a vertex; on banks the nearest section.
     [[nodiscard]] std::uint32_t nearest_node(std::uint32_t vertex) const {
         return node_of[vertex] != kNoNode ? node_of[vertex] : stand_of[vertex].nearest();
