@@ -1,8 +1,8 @@
 #include "tinwright/water/flat_points.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <numeric>
 #include <optional>
 #include <vector>
 
@@ -110,13 +110,11 @@ class PointInserter {
 
     [[nodiscard]] bool keeps_faces(HalfEdgeId h, Key2 key) const {
         const TriangleMesh& mesh = tin_.mesh;
-        for (const HalfEdgeId side : {h, mesh.twin(h)}) {
+        const std::array sides{h, mesh.twin(h)};
+        return std::all_of(sides.begin(), sides.end(), [&](HalfEdgeId side) {
             const VertexId apex = mesh.origin(previous(side));
-            if (!turns_left(apex, mesh.origin(side), key) || !turns_left(mesh.destination(side), apex, key)) {
-                return false;
-            }
-        }
-        return true;
+            return turns_left(apex, mesh.origin(side), key) && turns_left(mesh.destination(side), apex, key);
+        });
     }
 
     void add(Key2 key, double z) {
@@ -172,7 +170,7 @@ InsertedPoints insert_axis_points(Tin& tin, const FlatAxes& axes, std::span<cons
     const std::vector<VertexId> new_ids = sort_vertices(tin);
     const auto keep = [&](VertexId a, VertexId b) {
         if (a != kGhostVertex && b != kGhostVertex) {
-            result.edges.push_back(std::minmax(new_ids[a.value], new_ids[b.value]));
+            result.edges.emplace_back(std::minmax(new_ids[a.value], new_ids[b.value]));
         }
     };
     for (const AxisLink& link : axes.links) {

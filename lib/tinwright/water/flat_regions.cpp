@@ -119,14 +119,15 @@ void FlatRegions::find_rim(FaceId first, std::vector<bool>& is_seen, std::vector
     std::sort(rim.begin(), rim.end());
 }
 
-void FlatRegions::judge_rim(const std::vector<HalfEdgeId>& rim, std::vector<Edge>& pieces) const {
-    const TriangleMesh& mesh = tin_.mesh;
-    const auto rise_beyond = [&](HalfEdgeId h) {
-        const HalfEdgeId t = mesh.twin(h);
-        return is_dry(face_of(t)) ? tin_.z[mesh.origin(previous(t)).value] - tin_.z[mesh.origin(h).value] : 0;
-    };
-    // What the terrain does behind the walls: what lies behind openings does the opposite. A guess that
-    // says so of all edges is kept; otherwise the longer part of the rim, walls twice, is the walls.
+double FlatRegions::rise_beyond(HalfEdgeId h) const {
+    const HalfEdgeId t = tin_.mesh.twin(h);
+    const VertexId beyond = tin_.mesh.origin(previous(t));
+    return is_dry(face_of(t)) ? tin_.z[beyond.value] - tin_.z[tin_.mesh.origin(h).value] : 0;
+}
+
+// What the terrain does behind the walls: what lies behind ways out does the opposite. A guess that says so
+// of all edges is kept; otherwise the longer part of the rim, walls twice, is the walls.
+FlatRegions::Beyond FlatRegions::look_beyond(const std::vector<HalfEdgeId>& rim) const {
     struct Lengths {
         double up = 0;
         double down = 0;
@@ -138,20 +139,28 @@ void FlatRegions::judge_rim(const std::vector<HalfEdgeId>& rim, std::vector<Edge
         const bool is_wall = kind(h) == FlatEdge::Wall;
         if (rise != 0 && (is_wall || is_uncertain(h))) {
             Lengths& lengths = is_wall ? walls : openings;
-            (rise > 0 ? lengths.up : lengths.down) +=
-                std::sqrt(squared_distance(tin_.key(mesh.origin(h)), tin_.key(mesh.destination(h))));
+            const double squared =
+                squared_distance(tin_.key(tin_.mesh.origin(h)), tin_.key(tin_.mesh.destination(h)));
+            (rise > 0 ? lengths.up : lengths.down) += std::sqrt(squared);
         }
     }
     const bool is_consistent = walls.up + walls.down > 0 && ((walls.up == 0 && openings.down == 0) ||
                                                              (walls.down == 0 && openings.up == 0));
-    const double beyond = 2 * (walls.up - walls.down) + (is_consistent ? 0 : openings.up - openings.down);
+    const double by_walls = walls.up - walls.down;
+    return {by_walls, is_consistent ? by_walls : 2 * by_walls + openings.up - openings.down};
+}
+
+void FlatRegions::judge_rim(const std::vector<HalfEdgeId>& rim, std::vector<Edge>& pieces) const {
+    const Beyond beyond = look_beyond(rim);
     for (const HalfEdgeId h : rim) {
+        if (tin_.mesh.is_constrained(h) || !is_dry(face_of(tin_.mesh.twin(h)))) {
+            continue;
+        }
         const double rise = rise_beyond(h);
-        const double by = is_uncertain(h) ? beyond : walls.up - walls.down;
+        const double by = is_uncertain(h) ? beyond.of_all : beyond.of_walls;
         const bool is_told = by != 0 && rise != 0;
-        const bool is_wall = is_told ? (rise > 0) == (by > 0) : kind(h) == FlatEdge::Wall;
-        if (!mesh.is_constrained(h) && is_dry(face_of(mesh.twin(h))) && is_wall) {
-            pieces.push_back(ends_of(mesh, h));
+        if (is_told ? (rise > 0) == (by > 0) : kind(h) == FlatEdge::Wall) {
+            pieces.push_back(ends_of(tin_.mesh, h));
         }
     }
 }

@@ -44,10 +44,20 @@ class FlatRegions {
   private:
     using Edge = std::pair<VertexId, VertexId>;  // the smaller first
 
+    /// Whether the terrain goes up (> 0) or down beyond a contour, as its walls say, and as the whole rim
+    /// does.
+    struct Beyond {
+        double of_walls;
+        double of_all;
+    };
+
     void find_measured();
     void find_contour_pieces();
     [[nodiscard]] bool is_uncertain(HalfEdgeId h) const;
     void find_rim(FaceId first, std::vector<bool>& is_seen, std::vector<HalfEdgeId>& rim) const;
+    /// From the vertices of an edge to the one behind it; zero where no dry terrain is.
+    [[nodiscard]] double rise_beyond(HalfEdgeId h) const;
+    [[nodiscard]] Beyond look_beyond(const std::vector<HalfEdgeId>& rim) const;
     void judge_rim(const std::vector<HalfEdgeId>& rim, std::vector<Edge>& pieces) const;
     void sort_pieces();
 

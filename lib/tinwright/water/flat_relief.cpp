@@ -93,11 +93,12 @@ class Relief {
     }
 
     void measure_remaining_ways() {
-        for (auto n = order_.rbegin(); n != order_.rend(); ++n) {
-            Way& way = ways_[*n];
-            way.remaining = std::max({way.remaining, axes_.nodes[*n].end, axes_.nodes[*n].half_width});
-            for (const AxisLink& link : links_of(*n)) {
-                way.remaining = std::max(way.remaining, beyond_meeting(*n, link));
+        std::reverse(order_.begin(), order_.end());  // the farthest first
+        for (const std::uint32_t n : order_) {
+            Way& way = ways_[n];
+            way.remaining = std::max({way.remaining, axes_.nodes[n].end, axes_.nodes[n].half_width});
+            for (const AxisLink& link : links_of(n)) {
+                way.remaining = std::max(way.remaining, beyond_meeting(n, link));
             }
             if (way.from != AxisNode::kNone) {
                 const double length = way.done - ways_[way.from].done;
