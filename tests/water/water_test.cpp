@@ -390,4 +390,13 @@ TEST_SUITE("water/water") {
         CHECK(above.other_line == 2);
         CHECK(above.amount == 5);
     }
+
+    TEST_CASE("a ring of banks without an area is refused") {
+        const Breakline spike = ring(LineRole::Bank, 0, {{20, 5, 1}, {22, 5, 1}});
+        for (const std::vector<Breakline>& lines :
+             {std::vector{rectangle(LineRole::Bank, 0, 0, 0, 50, 10, 1), spike}, {spike}}) {
+            const std::string message = message_of<BreaklineError>([&] { level_water({}, lines); });
+            CHECK(message == "a ring of banks has no area, at (20, 5); remove it");
+        }
+    }
 }

@@ -221,6 +221,14 @@ class NetworkMaker {
     void require_simple(const BankWater& bank) const {
         std::vector<std::uint32_t> all;
         for (const std::vector<std::uint32_t>& ring : bank.rings) {
+            if (ring.size() < 3) {
+                const std::uint32_t line =
+                    bank.polygon.rings[static_cast<std::size_t>(&ring - bank.rings.data())];
+                throw BreaklineError("a ring of banks has no area, at " +
+                                         location_text(out_.lattice.position(out_.key(ring.front()))) +
+                                         "; remove it",
+                                     {out_.lines[line]});
+            }
             all.insert(all.end(), ring.begin(), ring.end());
         }
         std::sort(all.begin(), all.end());
