@@ -45,17 +45,21 @@ struct BankNetwork {
     std::vector<std::uint32_t> ends;             ///< sections of one link: where the water can begin or end
 };
 
-/// Divides a polygon of running water by sections, along its medial axis: the polygon's constrained Delaunay
-/// triangulation has faces in a row wherever the water has two banks, and the edges between them lead from
-/// bank to bank; sections are as many of these as share no vertex, going along the row. Where the water
-/// divides (around an island) or is joined, the face with three such edges, and all that share a vertex with
-/// it, are one level place.
+/// Divides a polygon of running water by sections, along its medial axis [prasad1997]: the polygon's
+/// constrained Delaunay triangulation has faces in a row wherever the water has two banks, and the edges
+/// between them lead from bank to bank; sections are many of these that share no vertex and are square to
+/// the water. Where the water divides (around an island) or is joined, the face with three such edges, and
+/// all that share a vertex with it, are one level place; little bays do not count. The vertices of any face
+/// stand between two sections that are linked, or at one: with levels that fall along links, so does all the
+/// water. Each island makes a cycle of links, unless level places or a row without sections are all around
+/// it.
 ///
 /// `rings`: of one polygon, closed without the first vertex repeated, vertices distinct, on the lattice;
 /// rings meet neither themselves nor each other. Vertices half a width apart or closer make sections
 /// square to the water; see `add_stations`. Vertices that a triangulation must not miss are all there
-/// already: no points are made. No two sections cross or share a vertex. Deterministic; does not depend on
-/// where rings begin. O(n log n).
+/// already: no points are made. No two sections cross or share a vertex. There is at least one; where there
+/// is no more than one, no links and no ends. Deterministic; does not depend on where rings begin, nor on
+/// their order or direction. O(n log n), and the length of the paths.
 BankNetwork make_bank_network(std::span<const std::vector<Key2>> rings);
 
 }  // namespace tinwright

@@ -94,8 +94,8 @@ class BranchStripper {
         double depth = 0;
         for (const HalfEdgeId h : {next(exit), previous(exit)}) {
             if (is_inner(h)) {
-                depth =
-                    std::max(depth, distance(from, water_.middle(h)) + depth_[face_of(mesh.twin(h)).value]);
+                const FaceId behind = face_of(mesh.twin(h));
+                depth = std::max(depth, distance(from, water_.middle(h)) + depth_[behind.value]);
             }
         }
         if (depth == 0) {  // the end of a branch
@@ -112,6 +112,7 @@ class BranchStripper {
         return neighbors_[f.value] == 0 && exit_[f.value] == h;
     }
 
+    // Whether the branch that begins with the face, its exit known, is one.
     [[nodiscard]] bool is_bay(FaceId f) const {
         const HalfEdgeId mouth = exit_[f.value];
         const FaceId before = face_before(f);
@@ -122,7 +123,7 @@ class BranchStripper {
         const double width = water_.length(mouth);
         const double height =
             doubled_area(water_.key(corner[0]), water_.key(corner[1]), water_.key(corner[2])) / width;
-        return depth_[f.value] < std::max(width, height);
+        return depth_[f.value] < std::max(width, height / 2);
     }
 
     const WaterMesh& water_;

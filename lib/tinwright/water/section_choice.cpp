@@ -45,7 +45,7 @@ std::vector<std::uint32_t> choose_sections(std::span<const RowEdge> row) {
     std::vector<bool> is_taken(row.size(), false);
     for (std::size_t i = 0; i < row.size(); ++i) {
         const double ratio = row[i].length / std::min(left.shortest(i), right.shortest(i));
-        const double worth = 2 - ratio * ratio;
+        const double worth = 3 - 2 * ratio * ratio;
         const double with = best[apart(i)] + worth;
         is_taken[i] = row[i].is_free && worth > 0 && with > best[i];
         best[i + 1] = is_taken[i] ? with : best[i];

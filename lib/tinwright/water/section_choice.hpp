@@ -17,10 +17,10 @@ struct RowEdge {
     bool is_free = true;  ///< whether it may be chosen
 };
 
-/// Chooses edges that share no vertex: many, and square to the water. Of an edge, s times as long as the
-/// shortest that it shares an end with, the worth is 2 - s^2: 1 for that one itself, none at 45 degrees to
-/// it. Those chosen are of worth, and worth most together. `row`: from one edge to the next, one of the ends
-/// stays. Returns indices, ascending. O(n).
+/// Chooses edges that share no vertex: many, and square to the water. An edge r times as long as the shortest
+/// that it shares an end with is worth 3 - 2 r^2: 1 if it is that one itself, 1/2 if it is 27 degrees off it,
+/// nothing beyond 35. Those chosen are of worth, and worth most together. `row`: from one edge to the next,
+/// one of the ends stays. Returns indices, ascending; at least one if all are free. O(n).
 std::vector<std::uint32_t> choose_sections(std::span<const RowEdge> row);
 
 }  // namespace tinwright
