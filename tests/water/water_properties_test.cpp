@@ -188,4 +188,38 @@ TEST_SUITE("water/water") {
             }
         }
     }
+
+    TEST_CASE("rivers that end on shores up to the rounding of doubles can be triangulated") {
+        std::size_t near = 0;  // points of water that the lattice hardly tells apart
+        for (int k = 0; k < 20; ++k) {
+            CAPTURE(k);
+            const double angle = 0.1 + 0.07 * k;
+            const auto turn = [angle](const Point3& p) {
+                return Point3{500000 + std::cos(angle) * p.x - std::sin(angle) * p.y,
+                              6000000 + std::sin(angle) * p.x + std::cos(angle) * p.y, p.z};
+            };
+            auto samples = lattice_samples(0, 0, kSize, kSize, 3,
+                                           [](double x, double y) { return 20 - x / 8 + y / 16; });
+            std::transform(samples.begin(), samples.end(), samples.begin(), turn);
+            std::vector<Breakline> lines = {rectangle(LineRole::Lake, 0, 10, 10, 24, 31, 12),
+                                            rectangle(LineRole::Bank, 1, 30, 20, 58, 27, kDraped),
+                                            river({{1, 20, kDraped}, {10, 20.5, kDraped}}),
+                                            river({{24, 20.5, kDraped}, {30, 23.5, kDraped}}),
+                                            river({{41, 41, kDraped}, {44, 27, kDraped}})};
+            for (Breakline& line : lines) {
+                std::transform(line.points.begin(), line.points.end(), line.points.begin(), turn);
+            }
+            const Water water = level_water(samples, lines);
+            for (const Breakline& line : water.lines) {
+                for (std::size_t i = 1; i < line.points.size(); ++i) {
+                    near += std::hypot(line.points[i].x - line.points[i - 1].x,
+                                       line.points[i].y - line.points[i - 1].y) < 5e-8
+                                ? 1U
+                                : 0U;
+                }
+            }
+            CHECK_NOTHROW(triangulate(samples, water.lines));
+        }
+        CHECK(near > 0);
+    }
 }

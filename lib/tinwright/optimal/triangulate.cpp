@@ -99,13 +99,19 @@ struct HullAndDetail {
 
 // Counts ghost faces, as many as the hull has vertices, and finds the two closest vertices, which are the
 // ends of an edge.
-HullAndDetail examine(const Tin& tin) {
+// `turns`: the numbers, as in `Tin::sample`, where points of water begin, end, begin again, ...
+HullAndDetail examine(const Tin& tin, const std::vector<std::uint32_t>& turns = {}) {
     constexpr std::uint32_t kGrain = 1U << 14U;
     const TriangleMesh& mesh = tin.mesh;
     const bool must_measure = !tin.lattice.is_exact();
     const std::span<const Key2> keys = tin.keys;
-    // Points made where lines cross may be as close to others as they like.
-    const auto is_given = [&tin](VertexId v) { return tin.sample[v.value] < Tin::kInserted; };
+    // Points made where lines cross may be as close to others as they like, and so may those of water, which
+    // has been cut where it crosses already.
+    const auto is_given = [&tin, &turns](VertexId v) {
+        const std::uint32_t number = tin.sample[v.value];
+        const auto turn = std::upper_bound(turns.begin(), turns.end(), number);
+        return number < Tin::kInserted && (turn - turns.begin()) % 2 == 0;
+    };
     const auto examine_range = [&mesh, &is_given, keys, must_measure](
                                    const tbb::blocked_range<std::uint32_t>& range,
                                    const HullAndDetail& before) {
@@ -133,6 +139,19 @@ HullAndDetail examine(const Tin& tin) {
     return tbb::parallel_reduce(
         tbb::blocked_range<std::uint32_t>(0, static_cast<std::uint32_t>(mesh.slot_count()), kGrain),
         HullAndDetail{}, examine_range, HullAndDetail::merge);
+}
+
+std::vector<std::uint32_t> find_turns_of_water(std::size_t sample_count, std::span<const Breakline> lines) {
+    std::vector<std::uint32_t> turns;
+    std::size_t number = sample_count;
+    for (const Breakline& line : lines) {
+        const bool is_in_water = turns.size() % 2 != 0;
+        if (is_water_role(line.role) != is_in_water) {
+            turns.push_back(static_cast<std::uint32_t>(number));
+        }
+        number += line.points.size();
+    }
+    return turns;
 }
 
 // A lattice that had to move samples is good only if it moved each by a small part of the way to its
@@ -222,7 +241,7 @@ Triangulated triangulate_here(std::span<const Point3> samples, std::span<const B
         terrain_ring = make_tin_with_lines(samples, lines, options, result);
     }
     check_locations(tin);
-    const HullAndDetail seen = examine(tin);
+    const HullAndDetail seen = examine(tin, find_turns_of_water(samples.size(), lines));
     report.hull_vertices = seen.hull_vertices;
     check_detail(tin, seen);
     report.triangulate_seconds = seconds_since(start);
