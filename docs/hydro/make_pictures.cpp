@@ -25,7 +25,6 @@
 namespace {
 
 using tinwright::Breakline;
-using tinwright::kDraped;
 using tinwright::LineRole;
 using tinwright::Point2;
 using tinwright::Point3;
@@ -83,7 +82,7 @@ class Drawing {
         for (const Point2 p : points) {
             body_ << x(p) << ',' << y(p) << ' ';
         }
-        body_ << "\" fill=\"" << fill << "\" stroke=\"" << colour << "\" stroke-width=\"" << number(width)
+        body_ << R"(" fill=")" << fill << R"(" stroke=")" << colour << R"(" stroke-width=")" << number(width)
               << "\" stroke-linejoin=\"round\"" << more << "/>\n";
     }
 
