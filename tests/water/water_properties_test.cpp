@@ -164,8 +164,7 @@ TEST_SUITE("water/water") {
             auto samples = lattice_samples(0, 0, kSize, kSize, 3, [&random](double x, double y) {
                 return 20 - x / 8 + y / 16 + whole(random, 0, 8) / 8;
             });
-            WaterOptions options = random_options(random);
-            options.flow = FlowRule::Digitized;
+            const WaterOptions options = random_options(random);
             const Water water = level_water(samples, lines, options);
             std::vector<std::uint32_t> order;
             for (std::uint32_t i = 0; i < lines.size(); ++i) {

@@ -259,17 +259,19 @@ class NetworkMaker {
         }
     }
 
+    /// Numbered by place, so that ties that go by number do not depend on the order of the lines.
     void make_river_nodes() {
+        std::vector<bool> is_of_river(out_.noded.keys.size());
         for (std::uint32_t line = 0; line < out_.prepared.size(); ++line) {
-            if (out_.prepared[line].role != LineRole::River) {
-                continue;
-            }
             for (const std::uint32_t v : out_.chain(line)) {
-                if (out_.node_of[v] == kNoNode && out_.stand_of[v].a == kNoNode &&
-                    !out_.is_between_banks[v]) {
-                    out_.node_of[v] = static_cast<std::uint32_t>(out_.node_count++);
-                    out_.vertex_of.push_back(v);
-                }
+                is_of_river[v] = is_of_river[v] || out_.prepared[line].role == LineRole::River;
+            }
+        }
+        for (std::uint32_t v = 0; v < is_of_river.size(); ++v) {
+            if (is_of_river[v] && out_.node_of[v] == kNoNode && out_.stand_of[v].a == kNoNode &&
+                !out_.is_between_banks[v]) {
+                out_.node_of[v] = static_cast<std::uint32_t>(out_.node_count++);
+                out_.vertex_of.push_back(v);
             }
         }
     }
