@@ -83,7 +83,7 @@ class Drawing {
             body_ << x(p) << ',' << y(p) << ' ';
         }
         body_ << R"(" fill=")" << fill << R"(" stroke=")" << colour << R"(" stroke-width=")" << number(width)
-              << "\" stroke-linejoin=\"round\"" << more << "/>\n";
+              << R"(" stroke-linejoin="round")" << more << "/>\n";
     }
 
     std::string title_;
