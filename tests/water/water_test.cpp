@@ -399,4 +399,34 @@ TEST_SUITE("water/water") {
             CHECK(message == "a ring of banks has no area, at (20, 5); remove it");
         }
     }
+
+    TEST_CASE("banks that rise along the water are told of, and fall afterwards") {
+        std::vector<Point3> points;
+        for (int x = 0; x <= 100; x += 10) {
+            points.push_back({static_cast<double>(x), 0, 50 - x / 20.0 + (x == 50 ? 2 : 0)});
+        }
+        for (int x = 100; x >= 0; x -= 10) {
+            points.push_back({static_cast<double>(x), 20, 50 - x / 20.0 + (x == 50 ? 2 : 0)});
+        }
+        const Water water = level_water({}, std::vector<Breakline>{ring(LineRole::Bank, 0, points)});
+        REQUIRE(count(water, Kind::RunsUphill) == 1);
+        CHECK(first(water, Kind::RunsUphill).amount == doctest::Approx(1.5));
+        CHECK(first(water, Kind::RunsUphill).location.x == 50);
+        const std::vector<Point3>& middle = water.report.reaches[0].points;
+        CHECK(std::is_sorted(middle.rbegin(), middle.rend(),
+                             [](const Point3& a, const Point3& b) { return a.z < b.z; }));
+    }
+
+    TEST_CASE("a lake inside banks is refused, unless it is said what counts") {
+        const std::vector<Breakline> lines = {rectangle(LineRole::Bank, 0, 0, 0, 100, 20, 7),
+                                              rectangle(LineRole::Lake, 1, 40, 5, 60, 15, 5)};
+        CHECK(
+            message_of<BreaklineError>([&] { level_water({}, lines); }) ==
+            "banks overlap a lake or other banks at (40, 5), where the water cannot have both their levels; "
+            "cut one off at the other's shore, or say which elevation to take with --crossing-z "
+            "mean|first|min|max");
+        WaterOptions options;
+        options.keeps_faults = true;
+        CHECK(count(level_water({}, lines, options), Kind::WaterOverlaps) == 1);
+    }
 }

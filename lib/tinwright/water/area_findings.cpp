@@ -155,7 +155,7 @@ std::vector<WaterFinding> find_disorder(const WaterNetwork& network, const Water
     return findings;
 }
 
-std::vector<WaterFinding> find_bank_faults(const WaterNetwork& network, double tolerance) {
+std::vector<WaterFinding> find_unlevel_sections(const WaterNetwork& network, double tolerance) {
     std::vector<WaterFinding> findings;
     for (const BankWater& bank : network.banks) {
         const std::uint32_t ring = bank.polygon.rings.front();
@@ -177,30 +177,28 @@ std::vector<WaterFinding> find_bank_faults(const WaterNetwork& network, double t
                 findings.push_back(finding);
             }
         }
-        const auto overlaps = [&](const std::vector<std::uint32_t>& vertices, const auto& is_inside) {
-            return std::find_if(vertices.begin(), vertices.end(), is_inside);
-        };
-        for (const std::vector<std::uint32_t>& vertices : bank.rings) {
-            const auto found = overlaps(vertices, [&](std::uint32_t v) {
-                return network.is_between_banks[v] ||
-                       (network.node_of[v] != kNoNode && network.is_in_lake[v]);
-            });
-            if (found != vertices.end()) {
-                findings.push_back(make_finding(Kind::WaterOverlaps, network, ring, *found));
-                break;
-            }
-        }
     }
-    for (const WaterPolygon& lake : network.lakes) {
-        for (const std::uint32_t ring : lake.rings) {
+    return findings;
+}
+
+std::vector<WaterFinding> find_overlaps(const WaterNetwork& network) {
+    std::vector<WaterFinding> findings;
+    const auto add_first = [&](const WaterPolygon& polygon, const auto& is_inside) {
+        for (const std::uint32_t ring : polygon.rings) {
             const auto chain = network.chain(ring);
-            const auto found = std::find_if(chain.begin(), chain.end(),
-                                            [&](std::uint32_t v) { return network.is_between_banks[v]; });
+            const auto found = std::find_if(chain.begin(), chain.end(), is_inside);
             if (found != chain.end()) {
                 findings.push_back(make_finding(Kind::WaterOverlaps, network, ring, *found));
-                break;
+                return;
             }
         }
+    };
+    for (const BankWater& bank : network.banks) {
+        add_first(bank.polygon,
+                  [&](std::uint32_t v) { return network.is_between_banks[v] || network.is_in_lake[v]; });
+    }
+    for (const WaterPolygon& lake : network.lakes) {
+        add_first(lake, [&](std::uint32_t v) { return network.is_between_banks[v]; });
     }
     return findings;
 }

@@ -24,8 +24,12 @@ std::vector<Fall> find_lake_falls(const WaterNetwork& network, const WaterFlow& 
 std::vector<WaterFinding> find_disorder(const WaterNetwork& network, const WaterFlow& flow,
                                         std::span<const double> levels, double tolerance);
 
-/// BanksNotLevel, one a section, and WaterOverlaps, one a pair.
-std::vector<WaterFinding> find_bank_faults(const WaterNetwork& network, double tolerance);
+/// BanksNotLevel, one a section.
+std::vector<WaterFinding> find_unlevel_sections(const WaterNetwork& network, double tolerance);
+
+/// WaterOverlaps: banks that reach into a lake or other banks, and lakes that reach into banks; one a
+/// polygon.
+std::vector<WaterFinding> find_overlaps(const WaterNetwork& network);
 
 }  // namespace tinwright
 

@@ -68,7 +68,10 @@ void LakeLevels::agree(const std::vector<MeasuredLake>& measured) {
     for (std::size_t i = 0; i < measured.size(); ++i) {
         lakes_of[network_.lake_node[i]].push_back(i);
     }
-    for (const auto& [node, lakes] : lakes_of) {
+    for (auto& [node, lakes] : lakes_of) {
+        std::sort(lakes.begin(), lakes.end(), [&](std::size_t a, std::size_t b) {
+            return measured[a].lake.line < measured[b].lake.line;
+        });
         std::vector<double> levels;
         for (const std::size_t lake : lakes) {
             levels.push_back(measured[lake].lake.level);

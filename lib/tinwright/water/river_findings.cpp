@@ -140,6 +140,38 @@ Degrees count_runs(const WaterNetwork& network, const WaterFlow& flow) {
     return degrees;
 }
 
+/// Rises from section to section, each told at a vertex of the section.
+void add_bank_rises(const WaterNetwork& network, const WaterFlow& flow, std::span<const double> elevations,
+                    double tolerance, std::vector<WaterFinding>& findings) {
+    for (std::uint32_t r = 0; r < network.runs.size(); ++r) {
+        const WaterRun& run = network.runs[r];
+        if (!run.is_between_banks) {
+            continue;
+        }
+        const BankWater& bank = network.banks[run.bank];
+        Course course{run.line, flow.is_reversed[r], {}, {0}};
+        for (std::size_t i = 0; i < run.stops.size(); ++i) {
+            const auto& [ring, number] =
+                bank.network.sections[run.stops[i] - bank.first_node].vertices.front();
+            course.vertices.push_back(bank.rings[ring][number]);
+            if (i > 0) {
+                double length = 0;
+                const std::vector<Point2>& path = run.paths[i - 1];
+                for (std::size_t k = 1; k < path.size(); ++k) {
+                    length += std::hypot(path[k].x - path[k - 1].x, path[k].y - path[k - 1].y);
+                }
+                course.chainages.push_back(course.chainages.back() + length * network.lattice.quantum());
+            }
+        }
+        RiseFinder rises(network, course, tolerance, findings);
+        for (std::size_t k = 0; k < run.stops.size(); ++k) {
+            const std::size_t i = course.is_reversed ? run.stops.size() - 1 - k : k;
+            rises.pass(i, elevations[run.stops[i]]);
+        }
+        rises.finish();
+    }
+}
+
 }  // namespace
 
 std::vector<WaterFinding> find_rises(const WaterNetwork& network, const WaterFlow& flow,
@@ -175,6 +207,7 @@ std::vector<WaterFinding> find_rises(const WaterNetwork& network, const WaterFlo
         }
         rises.finish();
     }
+    add_bank_rises(network, flow, elevations, tolerance, findings);
     return findings;
 }
 

@@ -17,7 +17,8 @@ struct RiverFindingOptions {
     double shore_width = 0;  ///< CRS units
 };
 
-/// RunsUphill and WrongDirection, by the elevations given or measured: `elevations`, one a node.
+/// RunsUphill, of banks too, and WrongDirection, by the elevations given or measured: `elevations`, one a
+/// node.
 std::vector<WaterFinding> find_rises(const WaterNetwork& network, const WaterFlow& flow,
                                      std::span<const double> elevations, double tolerance);
 

@@ -140,7 +140,17 @@ class Leveler {
         add(find_dangling(network_, flow_, samples_, {tolerance, out_.report.shore_width}));
         add(find_passages(network_, elevations_, tolerance));
         add(find_disorder(network_, flow_, elevations_, tolerance));
-        add(find_bank_faults(network_, tolerance));
+        add(find_unlevel_sections(network_, tolerance));
+        const std::vector<WaterFinding> overlaps = find_overlaps(network_);
+        if (!overlaps.empty() && options_.meeting_levels == CrossingPolicy::Error && !options_.keeps_faults) {
+            throw BreaklineError("banks overlap a lake or other banks at " +
+                                     location_text(overlaps.front().location) +
+                                     ", where the water cannot have both their levels; cut one off at the "
+                                     "other's shore, or say which elevation to take with --crossing-z "
+                                     "mean|first|min|max",
+                                 {overlaps.front().line});
+        }
+        add(overlaps);
         if (options_.flow == FlowRule::Auto) {
             for (const WaterFinding& finding : out_.report.findings) {
                 out_.report.rivers_turned += finding.kind == Kind::WrongDirection ? 1U : 0U;

@@ -105,6 +105,18 @@ class NetworkMaker {
             }
             polygons[entry->second].rings.push_back(line);
         }
+        // By where they are, so that nothing depends on the order of polygons.
+        const auto first_vertex = [this](const WaterPolygon& polygon) {
+            std::uint32_t first = kNoNode;
+            for (const std::uint32_t ring : polygon.rings) {
+                const auto chain = out_.chain(ring);
+                first = std::min(first, *std::min_element(chain.begin(), chain.end()));
+            }
+            return first;
+        };
+        std::stable_sort(polygons.begin(), polygons.end(), [&](const WaterPolygon& a, const WaterPolygon& b) {
+            return first_vertex(a) < first_vertex(b);
+        });
         for (WaterPolygon& polygon : polygons) {
             if (polygon.role == LineRole::Lake) {
                 lake_by_number_[polygon.number] = static_cast<std::uint32_t>(out_.lakes.size());
