@@ -220,20 +220,14 @@ class Maker {
         std::size_t k = 0;
         auto border_point = border_points_.begin();
         for (;;) {
-            while (i < keys.size() && cleared_.samples[i] != 0) {
-                ++i;
-            }
-            while (k < noded.size() && cleared_.vertices[k] != 0) {
-                ++k;
-            }
+            i = next_kept(cleared_.samples, i);
+            k = next_kept(cleared_.vertices, k);
             const VertexId v{static_cast<std::uint32_t>(tin().keys.size())};
             const bool has_border_point = border_point != border_points_.end() &&
                                           (i == keys.size() || precedes_on_curve(*border_point, keys[i])) &&
                                           (k == noded.size() || precedes_on_curve(*border_point, noded[k]));
             if (has_border_point) {
-                tin().keys.push_back(*border_point++);
-                tin().z.push_back(kDraped);
-                tin().sample.push_back(Tin::kCrossing);
+                add_vertex(*border_point++, kDraped, Tin::kCrossing);
                 draped_.push_back(v);
                 continue;
             }
@@ -244,31 +238,47 @@ class Maker {
                 i < keys.size() && (k == noded.size() || !precedes_on_curve(noded[k], keys[i]));
             const bool has_line = k < noded.size() && (!has_sample || noded[k] == keys[i]);
             if (has_sample) {
-                tin().keys.push_back(keys[i]);
-                tin().z.push_back(sample_vertices_.z[i]);
-                tin().sample.push_back(sample_vertices_.sample[i]);
+                add_vertex(keys[i], sample_vertices_.z[i], sample_vertices_.sample[i]);
             } else {
-                tin().keys.push_back(noded[k]);
-                tin().z.push_back(noded_.z[k]);
-                const bool is_crossing = noded_.origin[k] == NodedLines::kCrossing;
-                tin().sample.push_back(is_crossing
-                                           ? Tin::kCrossing
-                                           : static_cast<std::uint32_t>(samples_.size()) + noded_.origin[k]);
-                result_.lines.crossing_vertices += is_crossing && !is_on_ring_[k] ? 1U : 0U;
-                if (std::isnan(noded_.z[k])) {
-                    result_.lines.draped_vertices += is_on_ring_[k] ? 0U : 1U;
-                    draped_.push_back(v);
-                }
+                add_line_vertex(k);
             }
             if (has_line) {
                 vertex_of_[k] = v;
-                if (has_sample && !std::isnan(noded_.z[k])) {
-                    meetings_.push_back({v, noded_.z[k], first_line_[k], has_water_[k]});
-                }
+            }
+            if (has_line && has_sample && !std::isnan(noded_.z[k])) {
+                meetings_.push_back({v, noded_.z[k], first_line_[k], has_water_[k]});
             }
             i += has_sample ? 1U : 0U;
             k += has_line ? 1U : 0U;
         }
+    }
+
+    /// The first from `i` on that is not left out.
+    static std::size_t next_kept(const std::vector<char>& is_cleared, std::size_t i) {
+        while (i < is_cleared.size() && is_cleared[i] != 0) {
+            ++i;
+        }
+        return i;
+    }
+
+    void add_vertex(Key2 key, double z, std::uint32_t sample) {
+        tin().keys.push_back(key);
+        tin().z.push_back(z);
+        tin().sample.push_back(sample);
+    }
+
+    /// A vertex of lines alone.
+    void add_line_vertex(std::size_t k) {
+        const bool is_crossing = noded_.origin[k] == NodedLines::kCrossing;
+        const bool is_draped = std::isnan(noded_.z[k]);
+        if (is_draped) {
+            draped_.push_back({static_cast<std::uint32_t>(tin().keys.size())});
+        }
+        result_.lines.crossing_vertices += is_crossing && !is_on_ring_[k] ? 1U : 0U;
+        result_.lines.draped_vertices += is_draped && !is_on_ring_[k] ? 1U : 0U;
+        add_vertex(
+            noded_.keys[k], noded_.z[k],
+            is_crossing ? Tin::kCrossing : static_cast<std::uint32_t>(samples_.size()) + noded_.origin[k]);
     }
 
     void insert_pieces() {

@@ -44,7 +44,7 @@ class WaterAreas {
   private:
     /// Keys are doubled, so that the middle of a piece has one.
     static Key2 twice(Key2 key) { return {2 * key.x, 2 * key.y}; }
-    [[nodiscard]] std::optional<std::uint32_t> find(Key2 doubled) const;
+    [[nodiscard]] std::optional<std::uint32_t> find(Key2 key) const;
 
     /// The vertices of a polygon's rings, and the surface over them.
     struct Surface {

@@ -209,6 +209,13 @@ std::optional<Lattice> refine_for_lines(int sample_decimals, const Box& bounds) 
     return bits < kLeastBits ? std::nullopt : std::optional(plain.refined(bits));
 }
 
+[[noreturn]] void throw_too_wide(int decimals, double steps) {
+    const auto text = [](double v) { return std::to_string(static_cast<long long>(v)); };
+    throw InputError("the samples span " + text(steps) + " steps of their last decimal, " +
+                     decimal_text(Lattice::decimal(decimals, {}).quantum()) + ", above the limit of 2^45 = " +
+                     text(kKeyLimit) + "; remove outlying samples or round the coordinates");
+}
+
 // Steps of the last decimal across the bounds.
 double decimal_steps(int decimals, const Box& bounds) {
     const double power = kPowersOfTen[static_cast<std::size_t>(decimals)];
@@ -285,22 +292,18 @@ FoundLattice find_lattice(std::span<const Point3> samples, std::span<const Point
         return {Lattice::decimal(seen.decimals, plain.key({bounds.x_min, bounds.y_min})), bounds};
     }
     // Lines with made points may happen to be decimal, with many decimals.
+    std::optional<Lattice> refined;
     if (!is_decimal || !line_points.empty()) {
-        if (const std::optional<Lattice> refined = find_refined({samples, line_points}, bounds)) {
-            return {*refined, bounds};
-        }
+        refined = find_refined({samples, line_points}, bounds);
     }
-    if (!line_points.empty()) {
-        if (const std::optional<Lattice> refined = refine_for_lines(sample_decimals, bounds)) {
-            return {*refined, bounds};
-        }
+    if (!refined && !line_points.empty()) {
+        refined = refine_for_lines(sample_decimals, bounds);
+    }
+    if (refined) {
+        return {*refined, bounds};
     }
     if (is_decimal) {
-        const auto text = [](double v) { return std::to_string(static_cast<long long>(v)); };
-        throw InputError("the samples span " + text(steps) + " steps of their last decimal, " +
-                         decimal_text(Lattice::decimal(seen.decimals, {}).quantum()) +
-                         ", above the limit of 2^45 = " + text(kKeyLimit) +
-                         "; remove outlying samples or round the coordinates");
+        throw_too_wide(seen.decimals, steps);
     }
 
     const double extent = std::max(bounds.x_max - bounds.x_min, bounds.y_max - bounds.y_min);

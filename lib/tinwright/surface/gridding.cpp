@@ -64,6 +64,8 @@ struct SurfaceGridder::State {
     }
     /// Puts `options.cells` into a band's elevations. `has_faces`: `face_of_cell` is the band's already.
     template <class Value>
+    void finish_elevations(std::int64_t band, std::span<const std::span<Value>> values, Value nodata);
+    template <class Value>
     void set_cells(std::int64_t band, std::span<Value> values, Value nodata, bool has_faces);
     SurfaceReading read(Worker& worker, const SurfacePlace& place) const;
     [[nodiscard]] double value_of(Product product, const SurfaceReading& reading, const SurfacePlace& place,
@@ -174,15 +176,23 @@ std::int64_t SurfaceGridder::State::fill(std::int64_t band, std::span<const std:
             }
         }
     });
-    for (std::size_t p = 0; p < values.size(); ++p) {
-        if (options.products[p] == Product::Elevation) {
-            if (is_of_faces) {
-                converter.fill(band, values[p], nodata);
-            }
-            set_cells(band, values[p], nodata, true);
-        }
-    }
+    finish_elevations(band, values, nodata);
     return covered;
+}
+
+/// Elevations of facets by the quicker way, and those of cells that have their own.
+template <class Value>
+void SurfaceGridder::State::finish_elevations(std::int64_t band, std::span<const std::span<Value>> values,
+                                              Value nodata) {
+    for (std::size_t p = 0; p < values.size(); ++p) {
+        if (options.products[p] != Product::Elevation) {
+            continue;
+        }
+        if (is_of_faces) {
+            converter.fill(band, values[p], nodata);
+        }
+        set_cells(band, values[p], nodata, true);
+    }
 }
 
 template <class Value>

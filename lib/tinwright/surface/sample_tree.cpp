@@ -36,9 +36,8 @@ struct SampleTree::Search {
 };
 
 SampleTree::SampleTree(const Tin& tin) : tin_(tin), lattice_(tin) {
-    are_all_made_ = std::all_of(tin.sample.begin(), tin.sample.end(), [](std::uint32_t sample) {
-        return sample >= Tin::kInserted;
-    });
+    are_all_made_ = std::all_of(tin.sample.begin(), tin.sample.end(),
+                                [](std::uint32_t sample) { return sample >= Tin::kInserted; });
     const std::size_t n = tin.vertex_count();
     std::vector<KeyBox> boxes((n + kRun - 1) / kRun, kEmptyBox);
     for (std::uint32_t v = 0; v < n; ++v) {
@@ -59,9 +58,7 @@ SampleTree::SampleTree(const Tin& tin) : tin_(tin), lattice_(tin) {
     }
 }
 
-bool SampleTree::is_given(VertexId v) const {
-    return are_all_made_ || tin_.sample[v.value] < Tin::kInserted;
-}
+bool SampleTree::is_given(VertexId v) const { return are_all_made_ || tin_.sample[v.value] < Tin::kInserted; }
 
 void SampleTree::visit(std::size_t level, std::size_t node, Search& search) const {
     if (level == 0) {

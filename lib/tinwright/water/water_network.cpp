@@ -204,9 +204,7 @@ class NetworkMaker {
     }
 
     void make_sections() {
-        std::vector<std::uint32_t> bank_at(out_.noded.keys.size(), kNoNode);
-        for (std::uint32_t b = 0; b < out_.banks.size(); ++b) {
-            BankWater& bank = out_.banks[b];
+        for (BankWater& bank : out_.banks) {
             std::vector<std::vector<Key2>> keys;
             for (const std::uint32_t line : bank.polygon.rings) {
                 bank.rings.push_back(open_ring(line));

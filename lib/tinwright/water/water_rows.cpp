@@ -17,7 +17,7 @@ class RowFinder {
           is_done_(4 * water.mesh.slot_count(), false) {}
 
     WaterRows find() {
-        const std::uint32_t slots = static_cast<std::uint32_t>(water_.mesh.slot_count());
+        const auto slots = static_cast<std::uint32_t>(water_.mesh.slot_count());
         std::vector<FaceId> beginnings;
         std::vector<FaceId> passages;
         for (FaceId f{0}; f.value < slots; ++f.value) {
