@@ -290,7 +290,8 @@ TEST_SUITE("io/write_tin") {
         const TemporaryFolder folder;
         const Tin tin = example_tin(2, 20);
         write_tin(tin, Crs(), folder.file("t.csv"), options);
-        CHECK(read_bytes(folder.file("t.csv")).starts_with("X,Y,Z,id,steiner,source,feature,crossing,inserted\n"));
+        CHECK(read_bytes(folder.file("t.csv"))
+                  .starts_with("X,Y,Z,id,steiner,source,feature,crossing,inserted\n"));
         CHECK(message_of<UsageError>([&] {
                   WriteTinOptions faces = some_options();
                   faces.layer_options = options.layer_options;
