@@ -417,6 +417,15 @@ TEST_SUITE("water/water") {
                              [](const Point3& a, const Point3& b) { return a.z < b.z; }));
     }
 
+    TEST_CASE("banks with an island that touches them are refused") {
+        const std::vector<Breakline> lines = {rectangle(LineRole::Bank, 0, 0, 0, 100, 20, 7),
+                                              ring(LineRole::Bank, 0, {{40, 0, 7}, {45, 5, 7}, {45, 8, 7}})};
+        CHECK(
+            message_of<BreaklineError>([&] { level_water({}, lines); }) ==
+            "banks touch or cross themselves at (40, 0); move the rings apart there, or make an island that "
+            "touches part of the bank");
+    }
+
     TEST_CASE("a lake inside banks is refused, unless it is said what counts") {
         const std::vector<Breakline> lines = {rectangle(LineRole::Bank, 0, 0, 0, 100, 20, 7),
                                               rectangle(LineRole::Lake, 1, 40, 5, 60, 15, 5)};

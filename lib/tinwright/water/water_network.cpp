@@ -244,10 +244,11 @@ class NetworkMaker {
         std::sort(all.begin(), all.end());
         const auto twice = std::adjacent_find(all.begin(), all.end());
         if (twice != all.end()) {
-            throw BreaklineError("banks touch or cross themselves at " +
-                                     location_text(out_.lattice.position(out_.key(*twice))) +
-                                     "; put the polygon right, with \"tinwright check --repair\" for example",
-                                 {out_.lines[bank.polygon.rings.front()]});
+            throw BreaklineError(
+                "banks touch or cross themselves at " +
+                    location_text(out_.lattice.position(out_.key(*twice))) +
+                    "; move the rings apart there, or make an island that touches part of the bank",
+                {out_.lines[bank.polygon.rings.front()]});
         }
     }
 
