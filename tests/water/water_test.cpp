@@ -417,6 +417,22 @@ TEST_SUITE("water/water") {
                              [](const Point3& a, const Point3& b) { return a.z < b.z; }));
     }
 
+    TEST_CASE("a canal that leaves a river in its middle does not turn the river below it around") {
+        std::vector<Point3> points;
+        for (int x = 0; x <= 100; x += 10) {
+            points.push_back({static_cast<double>(x), 0, 50 - x / 20.0});
+        }
+        for (int x = 100; x >= 0; x -= 10) {
+            points.push_back({static_cast<double>(x), 20, 50 - x / 20.0});
+        }
+        const std::vector<Breakline> lines = {ring(LineRole::Bank, 0, points),
+                                              river({{50, 20, 47.5}, {50, 60, 46}})};
+        const Water water = level_water({}, lines);
+        CHECK(count(water, Kind::RunsUphill) == 0);
+        CHECK(water.report.banks[0].z_up == 49.5);
+        CHECK(water.report.banks[0].z_down == 45.5);
+    }
+
     TEST_CASE("banks with an island that touches them are refused") {
         const std::vector<Breakline> lines = {rectangle(LineRole::Bank, 0, 0, 0, 100, 20, 7),
                                               ring(LineRole::Bank, 0, {{40, 0, 7}, {45, 5, 7}, {45, 8, 7}})};

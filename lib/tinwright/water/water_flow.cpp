@@ -92,7 +92,8 @@ class FlowFinder {
         return same;
     }
 
-    /// Gives the chosen runs a direction. Where `outlets` has none for a connected part, elevations decide.
+    /// Gives the chosen runs a direction. Where `outlets` has no end of a connected part, elevations tell
+    /// more.
     template <class IsChosen>
     void orient(const IsChosen& is_chosen, const std::vector<std::uint32_t>& outlets) {
         std::vector<std::uint32_t> runs;
@@ -106,9 +107,17 @@ class FlowFinder {
                 parts.join(links.back().a, links.back().b);
             }
         }
+        std::vector<std::uint32_t> ways(network_.node_count);
+        for (const FlowLink& link : links) {
+            ++ways[link.a];
+            ++ways[link.b];
+        }
+        // A canal that leaves in the middle does not say where the rest of the water goes.
         std::vector<bool> is_settled(network_.node_count);
         for (const std::uint32_t outlet : outlets) {
-            is_settled[parts.find(outlet)] = true;
+            if (ways[outlet] < 2) {
+                is_settled[parts.find(outlet)] = true;
+            }
         }
         std::vector<std::uint32_t> all(outlets);
         for (const std::uint32_t outlet : find_outlets(elevations_, links)) {
