@@ -91,7 +91,7 @@ void CommandHydro::setup(const std::vector<std::string>& arguments) {
     }
     const std::string first = arguments.empty() ? std::string() : arguments.front();
     if (first != "check" && first != "repair") {
-        throw UsageError("hydro needs \"check\" or \"repair\" first" +
+        throw UsageError(R"(hydro needs "check" or "repair" first)" +
                          (first.empty() ? std::string() : ", not " + io::quoted(first)) +
                          "; see \"tinwright hydro --help\"");
     }
@@ -135,7 +135,7 @@ void CommandHydro::finish_check() {
     }
 }
 
-void CommandHydro::finish_repair() {
+void CommandHydro::finish_repair() const {
     if (output.path.empty()) {
         throw UsageError("hydro repair needs a folder for the repaired lines: name it with -o FOLDER");
     }

@@ -49,7 +49,7 @@ class CommandHydro : public Command {
     /// The parser of an action; of none, the one that only helps.
     std::unique_ptr<CLI::App> make_parser_of(std::optional<Action> wanted);
     void finish_check();
-    void finish_repair();
+    void finish_repair() const;
     /// Positional sources are samples, or lines that are rivers, or polygons that are lakes.
     [[nodiscard]] LevelRequest sort_sources(Console& console) const;
     [[nodiscard]] std::vector<io::Source> all_sources() const;

@@ -167,12 +167,12 @@ void WaterChoice::check_roles(const Roles& roles) const {
     require(lake_level_text, roles.lakes, "--lake-level", "lakes: give --lakes");
     require(shore_clearance_text, roles.lakes, "--shore-clearance", "lakes: give --lakes");
     const bool has_flow = roles.rivers || roles.banks;
-    const char* const kFlowing = "running water: give --rivers or --banks";
-    require(flow_text, has_flow, "--flow", kFlowing);
-    require(river_fit_text, has_flow, "--river-fit", kFlowing);
-    require(max_drop_text, has_flow, "--max-drop", kFlowing);
-    require(max_lift_text, has_flow, "--max-lift", kFlowing);
-    require(station_spacing_text, has_flow, "--station-spacing", kFlowing);
+    const char* const flowing = "running water: give --rivers or --banks";
+    require(flow_text, has_flow, "--flow", flowing);
+    require(river_fit_text, has_flow, "--river-fit", flowing);
+    require(max_drop_text, has_flow, "--max-drop", flowing);
+    require(max_lift_text, has_flow, "--max-lift", flowing);
+    require(station_spacing_text, has_flow, "--station-spacing", flowing);
     const bool has_any = has_flow || roles.lakes;
     require(shore_width_text, has_any, "--shore-width", "water: give --lakes, --rivers or --banks");
     require(tolerance_text, has_any, "--level-tolerance", "water: give --lakes, --rivers or --banks");
