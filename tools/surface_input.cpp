@@ -144,6 +144,19 @@ TinOrigins origins_of_file(const Tin& tin, const io::TinFile& file) {
     return origins;
 }
 
+/// Has flat faces removed while `options` are carried out, and reported in `surface`.
+void treat_flat_faces(const TriangulationOptions& triangulation, Surface& surface,
+                      TriangulateOptions& options) {
+    const FlatFaces how = triangulation.flat_faces;
+    if (how == FlatFaces::Keep) {
+        return;
+    }
+    const bool keeps_delaunay = !triangulation.is_delaunay();
+    options.before_optimum = [&surface, how, keeps_delaunay](Tin& tin, const std::vector<bool>& is_water) {
+        surface.flat_faces = {treatment_name(how), remove_flat_faces(tin, how, is_water, keeps_delaunay)};
+    };
+}
+
 }  // namespace
 
 std::string metadata_value(const io::TinMetadata& metadata, const std::string& key) {
@@ -198,13 +211,7 @@ Surface triangulate_sources(const SurfaceRequest& request, Console& console) {
     if (has_water) {
         surface.water = level_inputs(request, inputs, console.progress().stage(read_end, triangulate_at));
     }
-    if (const FlatFaces how = request.triangulation.flat_faces; how != FlatFaces::Keep) {
-        const bool keeps_delaunay = !request.triangulation.is_delaunay();
-        options.before_optimum = [&surface, how, keeps_delaunay](Tin& tin,
-                                                                 const std::vector<bool>& is_water) {
-            surface.flat_faces = {treatment_name(how), remove_flat_faces(tin, how, is_water, keeps_delaunay)};
-        };
-    }
+    treat_flat_faces(request.triangulation, surface, options);
     Triangulated made;
     run_located(inputs.samples, inputs.lines,
                 [&] { made = triangulate(inputs.samples.points, inputs.lines.lines, options); });

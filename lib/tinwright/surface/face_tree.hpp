@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "tinwright/mesh/box_tree.hpp"
@@ -12,11 +13,15 @@
 /// Private to those who look for faces.
 namespace tinwright {
 
-/// The terrain faces of a TIN in a tree, and the lattice of the places asked about.
+/// Faces of a TIN in a tree, all of its terrain or some, and the lattice of the places asked about.
 class FaceTree {
   public:
     /// `tin` must outlive it. O(slots log slots).
-    explicit FaceTree(const Tin& of) : tin(of), lattice(of), faces_(terrain_faces(of)), tree_(boxes()) {}
+    explicit FaceTree(const Tin& of) : FaceTree(of, terrain_faces(of)) {}
+    FaceTree(const Tin& of, std::vector<FaceId> faces)
+        : tin(of), lattice(of), faces_(std::move(faces)), tree_(boxes()) {}
+
+    [[nodiscard]] bool is_empty() const { return faces_.empty(); }
 
     /// The corner of a face, in steps of the lattice.
     [[nodiscard]] Key2 corner(FaceId f, unsigned i) const {

@@ -1,7 +1,6 @@
 #include "tinwright/water/river_cells.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -11,8 +10,7 @@
 #include <utility>
 
 #include "tinwright/geometry/predicates.hpp"
-#include "tinwright/mesh/box_tree.hpp"
-#include "tinwright/surface/surface_place.hpp"
+#include "tinwright/surface/face_tree.hpp"
 
 namespace tinwright {
 
@@ -105,24 +103,21 @@ std::vector<RiverPass> find_passes(const Tin& tin, const std::vector<RiverEdge>&
 /// Tells of positions whether they are on water, shores included.
 class WaterFaces {
   public:
-    WaterFaces(const Tin& tin, const std::vector<bool>& is_water_face)
-        : tin_(tin), lattice_(tin), faces_(chosen(is_water_face)), tree_(boxes()) {}
+    WaterFaces(const Tin& tin, const std::vector<bool>& is_water_face) : faces_(tin, chosen(is_water_face)) {}
 
-    [[nodiscard]] bool is_empty() const { return faces_.empty(); }
+    [[nodiscard]] bool is_empty() const { return faces_.is_empty(); }
     [[nodiscard]] bool hold(Point2 position) const {
-        const Key2 at = lattice_.at(position);
+        const Key2 at = faces_.lattice.at(position);
         if (!QueryLattice::is_near(at)) {
             return false;
         }
         bool is_held = false;
-        const Key2 key{at.x / lattice_.scale(), at.y / lattice_.scale()};
-        tree_.visit_meeting(
-            {key, key}, [](const KeyBox&) { return false; },
-            [&](std::uint32_t item) {
-                const auto& v = tin_.mesh.face(faces_[item]).vertex;
-                const Key2 a = lattice_.scaled(tin_.key(v[0]));
-                const Key2 b = lattice_.scaled(tin_.key(v[1]));
-                const Key2 c = lattice_.scaled(tin_.key(v[2]));
+        faces_.visit_meeting(
+            {at, at}, [](const KeyBox&) { return false; },
+            [&](FaceId face) {
+                const Key2 a = faces_.corner(face, 0);
+                const Key2 b = faces_.corner(face, 1);
+                const Key2 c = faces_.corner(face, 2);
                 is_held = orient2d(a, b, at) >= 0 && orient2d(b, c, at) >= 0 && orient2d(c, a, at) >= 0;
                 return !is_held;
             });
@@ -139,20 +134,8 @@ class WaterFaces {
         }
         return faces;
     }
-    [[nodiscard]] std::vector<KeyBox> boxes() const {
-        std::vector<KeyBox> boxes;
-        boxes.reserve(faces_.size());
-        for (const FaceId f : faces_) {
-            const auto& v = tin_.mesh.face(f).vertex;
-            boxes.push_back(KeyBox::of(std::array{tin_.key(v[0]), tin_.key(v[1]), tin_.key(v[2])}));
-        }
-        return boxes;
-    }
 
-    const Tin& tin_;
-    QueryLattice lattice_;
-    std::vector<FaceId> faces_;
-    BoxTree tree_;
+    FaceTree faces_;
 };
 
 /// The cells of passes, ascending; of each pass the number of its cell among them.
