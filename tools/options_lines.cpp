@@ -58,11 +58,7 @@ void LineOptions::add_constraints_to(CLI::App& parser) {
 void LineOptions::finish(const std::vector<std::string>& open_options) {
     sources.clear();
     const auto add = [&](const std::vector<std::string>& texts, LineRole role) {
-        for (const std::string& text : texts) {
-            io::Source source = io::parse_source(text);
-            source.open_options.insert(source.open_options.begin(), open_options.begin(), open_options.end());
-            sources.push_back({std::move(source), role});
-        }
+        add_line_sources(texts, role, open_options, sources);
     };
     add(breakline_texts, LineRole::Breakline);
     add(boundary_texts, LineRole::Boundary);

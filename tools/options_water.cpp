@@ -130,14 +130,19 @@ void WaterChoice::finish_rivers() {
     options.station_spacing = positive("--station-spacing", station_spacing_text);
 }
 
+void add_line_sources(const std::vector<std::string>& texts, LineRole role,
+                      const std::vector<std::string>& open_options, std::vector<io::LineSource>& sources) {
+    for (const std::string& text : texts) {
+        io::Source source = io::parse_source(text);
+        source.open_options.insert(source.open_options.begin(), open_options.begin(), open_options.end());
+        sources.push_back({std::move(source), role});
+    }
+}
+
 void WaterChoice::finish(const std::vector<std::string>& open_options) {
     sources.clear();
     const auto add = [&](const std::vector<std::string>& texts, LineRole role) {
-        for (const std::string& text : texts) {
-            io::Source source = io::parse_source(text);
-            source.open_options.insert(source.open_options.begin(), open_options.begin(), open_options.end());
-            sources.push_back({std::move(source), role});
-        }
+        add_line_sources(texts, role, open_options, sources);
     };
     add(lake_texts, LineRole::Lake);
     add(bank_texts, LineRole::Bank);

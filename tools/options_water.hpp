@@ -65,6 +65,10 @@ struct WaterChoice {
 /// "min", "percentile:5" or "mean".
 std::string level_rule_name(const LevelRule& rule);
 
+/// Appends the sources that `texts` name; `open_options` (--oo) join those of each. Throws UsageError.
+void add_line_sources(const std::vector<std::string>& texts, LineRole role,
+                      const std::vector<std::string>& open_options, std::vector<io::LineSource>& sources);
+
 }  // namespace tinwright::tools
 
 #endif
