@@ -21,7 +21,7 @@ run() {
     "$@"
 }
 
-require_packages g++ cmake ninja-build libgdal-dev libtbb-dev libcli11-dev libjson-c-dev gdal-bin
+require_packages g++ cmake ninja-build libgdal-dev libproj-dev libgeographiclib-dev libtbb-dev libcli11-dev libjson-c-dev gdal-bin
 
 say "building the tinwright command in $build"
 mkdir -p "$build"

@@ -41,7 +41,7 @@ test_preset() {
     ctest --test-dir "$builds/$preset" --output-on-failure --no-tests=error --parallel "$jobs"
 }
 
-packages=(g++ cmake ninja-build libgdal-dev libtbb-dev libcli11-dev libjson-c-dev doctest-dev libboost-dev)
+packages=(g++ cmake ninja-build libgdal-dev libproj-dev libgeographiclib-dev libtbb-dev libcli11-dev libjson-c-dev doctest-dev libboost-dev)
 case "$mode" in
     --all) packages+=(clang clang-tidy clang-format pandoc) ;;
     --coverage) packages+=(gcovr) ;;

@@ -7,6 +7,8 @@
 #include "tinwright/geometry/error.hpp"
 #include "tinwright/geometry/threads.hpp"
 #include "tinwright/io/gdal_session.hpp"
+#include "tinwright/io/geodesic_measures.hpp"
+#include "tinwright/io/length_unit.hpp"
 #include "tinwright/io/read_tin.hpp"
 
 #include "conflict_layer.hpp"
@@ -45,16 +47,15 @@ Inputs read_inputs(const SurfaceRequest& request, Console& console, double end) 
     Inputs inputs;
     io::ReadOptions options;
     options.skip_bad = request.sources.skip_bad;
-    options.crs = request.crs.crs();
-    options.source_crs = request.crs.source_crs();
+    request.crs.apply_to(options);
     options.threads = request.triangulation.threads;
     options.progress = console.progress().stage(0, samples_end);
     inputs.samples = io::read_samples(request.sources.sources, options);
     if (has_lines) {
         io::ReadLinesOptions line_options;
         line_options.skip_bad = options.skip_bad;
+        request.crs.apply_to(line_options);
         line_options.crs = inputs.samples.crs;
-        line_options.source_crs = options.source_crs;
         line_options.z_unit = inputs.samples.z_unit;
         line_options.snap = request.lines->noding.snap;
         line_options.progress = console.progress().stage(samples_end, end);
@@ -94,6 +95,16 @@ std::vector<io::SampleSlice> slices_without_ids(Inputs& inputs) {
         slice.ids = {};
     }
     return slices;
+}
+
+/// What follows from the plane and the units.
+void set_references(const CrsOptions& options, io::WorkingPlane plane, Surface& surface) {
+    surface.crs = plane.crs;
+    surface.plane = std::move(plane);
+    const io::Crs asked = options.crs();
+    surface.output_crs = asked.is_known() ? asked : surface.crs;
+    surface.ground = io::make_ground_measures(surface.plane);
+    surface.z_factor = io::unit_factor(surface.z_unit, surface.crs.unit());
 }
 
 SourceName name_of(const io::SampleSlice& slice) {
@@ -222,8 +233,9 @@ Surface triangulate_sources(const SurfaceRequest& request, Console& console) {
     std::vector<LineConflict>& conflicts = made.report.lines.conflicts;
     conflicts.insert(conflicts.begin(), inputs.lines.conflicts.begin(), inputs.lines.conflicts.end());
 
-    surface.crs = inputs.samples.crs.is_known() ? inputs.samples.crs : inputs.lines.crs;
     surface.z_unit = inputs.samples.z_unit.empty() ? inputs.lines.z_unit : inputs.samples.z_unit;
+    set_references(request.crs, inputs.samples.crs.is_known() ? inputs.samples.plane : inputs.lines.plane,
+                   surface);
     if (request.keep_origins) {
         surface.origins = make_tin_origins(made.tin, inputs.samples.slices, inputs.lines, request.keep_ids);
         surface.source_names = name_sources(made.tin, surface.origins, inputs);
@@ -273,8 +285,8 @@ Surface triangulate_locations(const SurfaceRequest& request, Console& console) {
     run_located(inputs.samples, inputs.lines,
                 [&] { made = tinwright::triangulate_locations(inputs.samples.points, options); });
     Surface surface;
-    surface.crs = inputs.samples.crs;
     surface.z_unit = inputs.samples.z_unit;
+    set_references(request.crs, inputs.samples.plane, surface);
     surface.tin = std::move(made.tin);
     surface.report = std::move(made.report);
     surface.slices = slices_without_ids(inputs);
@@ -302,8 +314,10 @@ Surface read_existing_tin(const SurfaceRequest& request, Console& console) {
     if (request.keep_origins) {
         surface.origins = origins_of_file(surface.tin, file);
     }
-    surface.crs = file.crs.is_known() ? file.crs : assigned.is_known() ? assigned : wanted;
-    surface.z_unit = surface.crs.z_unit();
+    io::WorkingPlane plane;
+    plane.crs = file.crs.is_known() ? file.crs : assigned.is_known() ? assigned : wanted;
+    surface.z_unit = plane.crs.z_unit();
+    set_references(request.crs, std::move(plane), surface);
     surface.metadata = std::move(file.metadata);
     surface.criterion = read_criterion_report(surface.metadata);
     surface.lines = read_lines_summary(surface.metadata);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "tinwright/geometry/ground_measures.hpp"
 #include "tinwright/io/atomic_output.hpp"
 #include "tinwright/io/read_samples.hpp"
 #include "tinwright/io/write_tin.hpp"
@@ -34,9 +35,17 @@ struct SourceName {
 
 /// A TIN at hand, triangulated just now or read from a file.
 struct Surface {
+    /// Whether what is written has the positions of the TIN.
+    [[nodiscard]] bool is_written_in_plane() const { return output_crs.is_same_horizontally(crs); }
+
     Tin tin;
-    io::Crs crs;
-    std::string z_unit;
+    io::Crs crs;             ///< of the TIN's plane; may be unknown
+    io::WorkingPlane plane;  ///< how that came about
+    io::Crs output_crs;      ///< of what is written: --crs, else the plane's
+    GroundMeasures ground;   ///< lengths and areas that are told
+    std::string z_unit;      ///< empty when unknown
+    /// Horizontal units in a unit of z, so that slopes are true ratios; 1 where either unit is unknown.
+    double z_factor = 1;
     std::vector<io::SampleSlice> slices;      ///< what was read, without ids; empty for a TIN file
     std::optional<TriangulateReport> report;  ///< only when triangulated
     CriterionReport criterion;

@@ -81,6 +81,20 @@ bool Crs::is_geographic() const {
     return system_ != nullptr && (system_->IsGeographic() != 0 || system_->IsGeocentric() != 0);
 }
 
+bool Crs::is_geocentric() const { return system_ != nullptr && system_->IsGeocentric() != 0; }
+
+Crs::Heights Crs::heights() const { return Heights::Unknown; }
+Crs Crs::horizontal() const { return *this; }
+Crs Crs::geographic() const { return *this; }
+Crs Crs::with_heights_of(const Crs& /*other*/) const { return *this; }
+Crs Crs::with_vertical(const std::string& /*vertical_code*/) const { return *this; }
+Crs Crs::with_ellipsoidal_heights() const { return *this; }
+bool Crs::is_same_horizontally(const Crs& other) const { return is_same(other); }
+bool Crs::has_same_heights(const Crs& /*other*/) const { return false; }
+std::string Crs::axis_directions() const { return {}; }
+double Crs::metres_per_unit() const { return 1; }
+std::optional<double> Crs::epoch() const { return std::nullopt; }
+
 bool Crs::is_same(const Crs& other) const {
     if (system_ == nullptr || other.system_ == nullptr) {
         return system_ == other.system_;

@@ -2,6 +2,7 @@
 #define TINWRIGHT_IO_CRS_HPP
 
 #include <memory>
+#include <optional>
 #include <string>
 
 class OGRSpatialReference;
@@ -30,6 +31,40 @@ class Crs {
     [[nodiscard]] std::string code() const;
     /// WKT 2, empty when unknown.
     [[nodiscard]] std::string wkt() const;
+    /// Whether it is one of geocentric X, Y, Z.
+    [[nodiscard]] bool is_geocentric() const;
+    /// Whether positions are in a plane: a projected system, or a local one, with elevations or without.
+    [[nodiscard]] bool is_plane() const { return is_known() && !is_geographic(); }
+
+    /// What z is measured from.
+    enum class Heights { Unknown, Ellipsoidal, Gravity };
+    [[nodiscard]] Heights heights() const;
+    /// The same without z: the horizontal part of a compound system, a 3-D one made 2-D.
+    [[nodiscard]] Crs horizontal() const;
+    /// The 2-D geographic system that it is one of or is based on; unknown where there is none (local
+    /// systems).
+    [[nodiscard]] Crs geographic() const;
+    /// The horizontal part of this with z measured as in `other`, which has a vertical part or is 3-D; this
+    /// one's horizontal part alone when `other` has none.
+    [[nodiscard]] Crs with_heights_of(const Crs& other) const;
+    /// This one's horizontal part with heights in a vertical system by its code, "EPSG:5773". Throws
+    /// UsageError.
+    [[nodiscard]] Crs with_vertical(const std::string& vertical_code) const;
+    /// This one's horizontal part with z above the ellipsoid.
+    [[nodiscard]] Crs with_ellipsoidal_heights() const;
+    /// Whether x and y are the same; vertical parts do not matter. Two unknown ones are.
+    [[nodiscard]] bool is_same_horizontally(const Crs& other) const;
+    /// Whether z is measured from the same and in the same direction, in whatever unit; false when either
+    /// does not say.
+    [[nodiscard]] bool has_same_heights(const Crs& other) const;
+    /// Whether axes are not the usual ones, east and north: in words, "x points west and y points south";
+    /// else empty.
+    [[nodiscard]] std::string axis_directions() const;
+    /// Metres that a horizontal unit has; NaN for angles and where unknown.
+    [[nodiscard]] double metres_per_unit() const;
+    /// The epoch of coordinates that the data set gives with it, decimal year.
+    [[nodiscard]] std::optional<double> epoch() const;
+
     /// Horizontal unit, "metre", "US survey foot", ...; empty when unknown.
     [[nodiscard]] std::string unit() const;
     /// Unit of z where a vertical part tells it, else empty.

@@ -15,7 +15,7 @@
 #include "tinwright/io/gdal_session.hpp"
 #include "tinwright/io/line_features.hpp"
 #include "tinwright/io/open_source.hpp"
-#include "tinwright/io/working_plane.hpp"
+#include "tinwright/io/placement.hpp"
 
 namespace tinwright::io {
 namespace {
@@ -44,6 +44,7 @@ class LineReader {
             read_source(s);
         }
         out_.crs = plane_.crs();
+        out_.plane.crs = out_.crs;
         out_.z_unit = plane_.z_unit();
         if (const std::string warning = plane_.missing_warning(); !warning.empty()) {
             out_.warnings.push_back(warning);
@@ -270,7 +271,7 @@ class LineReader {
     std::span<const LineSource> roles_;
     const ReadLinesOptions& options_;
     std::vector<Source> sources_;
-    WorkingPlane plane_;
+    Placement plane_;
     Lines out_;
     std::uint32_t polygons_ = 0;
     std::vector<LineConflict> open_rings_;  // of the slice at hand

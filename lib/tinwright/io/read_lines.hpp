@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -11,7 +12,9 @@
 #include "tinwright/breaklines/line_conflict.hpp"
 #include "tinwright/geometry/progress.hpp"
 #include "tinwright/io/crs.hpp"
+#include "tinwright/io/height_request.hpp"
 #include "tinwright/io/source.hpp"
+#include "tinwright/io/working_plane.hpp"
 
 namespace tinwright::io {
 
@@ -25,8 +28,11 @@ struct ReadLinesOptions {
     bool skip_bad = false;  ///< count unusable features and go on, instead of failing at the first
     Crs crs;                ///< the working system, that of the samples; unknown: the one the lines share
     Crs source_crs;         ///< --source-crs: for sources that carry none; a source's crs= comes first
-    std::string z_unit;     ///< of the samples; empty when unknown
-    double snap = 0;        ///< rings whose ends are at most this far apart (CRS units, >= 0) are closed
+    PlaneRequest plane;     ///< where geographic lines are worked on when `crs` is unknown
+    HeightRequest heights;
+    std::optional<double> epoch;  ///< --epoch
+    std::string z_unit;           ///< of the samples; empty when unknown
+    double snap = 0;  ///< rings whose ends are at most this far apart (CRS units, >= 0) are closed
     /// For audits: keeps and lists faults that otherwise end the reading. Points without a finite z become
     /// draped (`MissingZ`, one a line), rings that are not closed stay open (`OpenRing`), lines may have a
     /// single point; features that cannot be used at all are left out and are in `Lines::faults`.
@@ -67,8 +73,9 @@ struct Lines {
     std::vector<LineSlice> slices;
     /// What was done while reading: rings closed within `snap`, and under keep_faults those above.
     std::vector<LineConflict> conflicts;
-    std::vector<FeatureFault> faults;   ///< under keep_faults
-    Crs crs;                            ///< the working CRS, may be unknown
+    std::vector<FeatureFault> faults;  ///< under keep_faults
+    Crs crs;                           ///< the working CRS, may be unknown: that of `plane`
+    WorkingPlane plane;
     std::string z_unit;                 ///< empty when unknown
     std::vector<std::string> warnings;  ///< one line each
     double seconds = 0;

@@ -8,11 +8,11 @@
 
 #include "tinwright/io/gdal_session.hpp"
 #include "tinwright/io/open_source.hpp"
+#include "tinwright/io/placement.hpp"
 #include "tinwright/io/raw_slice.hpp"
 #include "tinwright/io/read_raster.hpp"
 #include "tinwright/io/read_text.hpp"
 #include "tinwright/io/read_vector.hpp"
-#include "tinwright/io/working_plane.hpp"
 
 namespace tinwright::io {
 namespace {
@@ -174,6 +174,7 @@ class SampleReader {
 
     void finish() {
         out_.crs = plane_.crs();
+        out_.plane.crs = out_.crs;
         out_.z_unit = plane_.z_unit();
         if (const std::string warning = plane_.missing_warning(); !warning.empty()) {
             out_.warnings.push_back(warning);
@@ -186,7 +187,7 @@ class SampleReader {
 
     std::span<const Source> sources_;
     const ReadOptions& options_;
-    WorkingPlane plane_;
+    Placement plane_;
     Samples out_;
 };
 

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -10,15 +11,21 @@
 #include "tinwright/geometry/point.hpp"
 #include "tinwright/geometry/progress.hpp"
 #include "tinwright/io/crs.hpp"
+#include "tinwright/io/height_request.hpp"
 #include "tinwright/io/source.hpp"
+#include "tinwright/io/working_plane.hpp"
 
 namespace tinwright::io {
 
 struct ReadOptions {
     bool skip_bad = false;  ///< count unusable rows and features and go on, instead of failing at the first
-    Crs crs;                ///< --crs: the working system; unknown: the one the samples share
-    Crs source_crs;         ///< --source-crs: for sources that carry none; a source's crs= comes first
-    int threads = 1;        ///< 0: all processors, and never more than there are
+    Crs crs;         ///< --crs: what is made is in it; if projected, and no plane is given, the working one
+    Crs source_crs;  ///< --source-crs: for sources that carry none; a source's crs= comes first
+    PlaneRequest plane;  ///< where geographic samples are worked on
+    HeightRequest heights;
+    std::optional<double>
+        epoch;        ///< --epoch: of the sources' coordinates, decimal year; a data set's own comes first
+    int threads = 1;  ///< 0: all processors, and never more than there are
     Progress progress;
 };
 
@@ -45,7 +52,8 @@ struct SampleSlice {
 struct Samples {
     std::vector<Point3> points;  ///< in the working CRS
     std::vector<SampleSlice> slices;
-    Crs crs;                            ///< the working CRS, may be unknown
+    Crs crs;  ///< the working CRS, may be unknown: that of `plane`
+    WorkingPlane plane;
     std::string z_unit;                 ///< empty when unknown
     std::vector<std::string> warnings;  ///< one line each
     double seconds = 0;
@@ -59,7 +67,7 @@ struct Samples {
 
 /// Reads sources one after the other into one array, in source and feature order. Sources in another system
 /// than the working one are transformed to it; those without any are taken to be in it, with one warning.
-/// Degrees are never taken for a plane: geographic samples without a projected `crs` to go to are refused.
+/// Degrees are never taken for a plane: geographic samples are worked on in one chosen for them.
 /// Throws IoError (cannot be opened or read), InputError (unusable content, naming file, layer, feature or
 /// line), UsageError (options that do not fit), Cancelled. O(n); text is parsed in parallel by chunks.
 Samples read_samples(std::span<const Source> sources, const ReadOptions& options = {});

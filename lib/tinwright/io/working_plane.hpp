@@ -1,71 +1,82 @@
 #ifndef TINWRIGHT_IO_WORKING_PLANE_HPP
 #define TINWRIGHT_IO_WORKING_PLANE_HPP
 
-#include <cstddef>
-#include <span>
+#include <optional>
 #include <string>
-#include <vector>
 
-#include "tinwright/geometry/point.hpp"
-#include "tinwright/geometry/progress.hpp"
 #include "tinwright/io/crs.hpp"
-#include "tinwright/io/source.hpp"
+#include "tinwright/io/geographic_extent.hpp"
 
+/// The plane that a job works in. Triangles, distances and slopes need one that is true to scale; degrees are
+/// none. Which one is chosen, and how far it may be off: docs/geodesy.md.
 namespace tinwright::io {
 
-/// What a file says about the coordinates in it.
-struct CoordinateSystem {
-    Crs crs;                  ///< may be unknown
-    bool is_lon_lat = false;  ///< columns are called longitude and latitude
-    std::string z_unit;       ///< where the file itself tells it
+/// What the user says about it: --working-crs, --max-distortion.
+struct PlaneRequest {
+    enum class Rule {
+        Auto,   ///< the system asked for or shared if it is projected, else Utm if it is within the limit,
+                ///< else Local
+        Given,  ///< `crs`
+        Utm,    ///< the zone of UTM or UPS at the data's centre
+        Local   ///< a projection of its own, centred on the data
+    };
+    Rule rule = Rule::Auto;
+    Crs crs{};                      ///< of Given: projected
+    double max_distortion = 0.001;  ///< greatest |scale - 1| over the data's extent
+    bool is_limit_given = false;    ///< the limit counts for systems that users or files name as well
 };
 
-/// Private to the readers: the system that all sources are brought into. It is the one asked for, else that
-/// of the first source that has one; sources without any are taken to be in it.
-class WorkingPlane {
-  public:
-    /// `sources` are kept by reference. `working`: unknown, if the sources are to decide; `assigned`: for
-    /// sources that carry none. Throws UsageError when `working` is geographic or a source's crs= is not
-    /// understood.
-    WorkingPlane(std::span<const Source> sources, Crs working, Crs assigned);
+/// "auto", "utm", "local" or a CRS, as --working-crs takes it. Throws UsageError: not understood, geographic,
+/// geocentric or vertical alone.
+PlaneRequest parse_plane_request(const std::string& text);
 
-    /// Brings the points of source `s` into the plane, in place. Returns the ascending positions of those
-    /// that cannot be transformed, left as they were. Throws InputError for geographic coordinates without a
-    /// plane to go to, for a system that differs when none was asked for, and when there is no way between
-    /// the two.
-    std::vector<std::size_t> place(std::size_t s, const CoordinateSystem& own, std::span<Point3> points,
-                                   const Progress& progress = {});
-    /// Why a point that `place` returned is none of the plane: `(x, y) cannot be transformed from A to B`.
-    [[nodiscard]] std::string failure(const Point3& point) const;
-
-    /// What elevations read before are in; empty when unknown.
-    void expect_z_unit(const std::string& unit) { z_unit_ = unit; }
-
-    [[nodiscard]] const Crs& crs() const { return crs_; }
-    /// Of the sources read; empty when unknown.
-    [[nodiscard]] std::string z_unit() const { return z_unit_.empty() ? crs_.z_unit() : z_unit_; }
-    /// Hands over what there is to warn of since the last time, one line each.
-    std::vector<std::string> take_warnings();
-    /// The warning that sources had no system, when there is one that they were taken to be in; else empty.
-    [[nodiscard]] std::string missing_warning() const;
-
-  private:
-    Crs system_of(std::size_t s, const CoordinateSystem& own);
-    void refuse_geographic(std::size_t s, const Crs& crs, std::span<const Point3> points) const;
-    void note_z_unit(std::size_t s, const std::string& unit);
-
-    std::span<const Source> sources_;
-    std::vector<Crs> given_;  // by crs=, one a source
-    Crs crs_;
-    Crs assigned_;
-    Crs from_;  // of the last source transformed
-    bool is_asked_for_;
-    std::size_t decided_by_ = 0;
-    std::vector<std::size_t> without_crs_;
-    std::string z_unit_;
-    bool are_z_units_mixed_ = false;
-    std::vector<std::string> warnings_;
+/// Least and greatest factor by which a projection stretches lengths.
+struct ScaleRange {
+    double least = 1;
+    double greatest = 1;
+    /// Greatest |scale - 1|.
+    [[nodiscard]] double distortion() const;
 };
+
+/// The plane of a job.
+struct WorkingPlane {
+    enum class Origin {
+        Unknown,  ///< no CRS is known
+        Asked,    ///< by --crs, --working-crs
+        Shared,   ///< of the sources themselves
+        Utm,      ///< chosen: a zone of UTM or UPS
+        Local     ///< chosen: a projection of its own
+    };
+    Crs crs;  ///< projected, or unknown; with a vertical part when what z is measured from is known
+    Origin origin = Origin::Unknown;
+    /// The sources' geographic system, when that is what they are in; else unknown.
+    Crs source_crs;
+    GeographicExtent extent;  ///< of the data; empty when no CRS is known
+    ScaleRange scale;         ///< over the extent; 1 to 1 where it is empty
+
+    [[nodiscard]] bool is_source_geographic() const { return source_crs.is_known(); }
+    /// "EPSG:32612 (WGS 84 / UTM zone 12N), chosen for the data's longitudes and latitudes; scale 0.99960 to
+    /// 0.99998", for people.
+    [[nodiscard]] std::string text() const;
+};
+
+/// Chooses the plane for data in the geographic system `source` over `extent`, by a rule other than Given.
+/// Both UTM and local systems are on the sources' own datum, so nothing is lost on the way. Of two local
+/// ones, transverse Mercator (tall extents) and oblique or polar stereographic (round ones and poles), the
+/// one of less distortion is taken; its scale at the centre balances the errors. Centres are rounded to
+/// hundredths of a degree. Throws InputError when the distortion exceeds the limit, saying what would help.
+/// O(1).
+WorkingPlane choose_working_plane(const Crs& source, const GeographicExtent& extent,
+                                  const PlaneRequest& request);
+
+/// The scale of a projected system over an extent, by PROJ's factors at points of a net over it, edges
+/// included. Empty when it cannot be told: a local engineering system, an extent outside of the projection.
+/// `extent` in degrees of the system's own geographic one. O(1), some milliseconds.
+std::optional<ScaleRange> find_scale_range(const Crs& crs, const GeographicExtent& extent);
+
+/// Throws InputError when the plane's distortion exceeds a limit that counts for it; else returns what there
+/// is to warn of (a plane that users or files name off by more than a hundredth), or nothing.
+std::string check_distortion(const WorkingPlane& plane, const PlaneRequest& request);
 
 }  // namespace tinwright::io
 

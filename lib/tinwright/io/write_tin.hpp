@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tinwright/breaklines/breakline.hpp"
+#include "tinwright/geometry/ground_measures.hpp"
 #include "tinwright/geometry/progress.hpp"
 #include "tinwright/io/crs.hpp"
 #include "tinwright/mesh/tin.hpp"
@@ -47,6 +48,10 @@ struct WriteTinOptions {
     std::vector<LineOrigin> lines;
     /// By face slot: on a lake or between banks. Empty, or nowhere true: the file does not speak of water.
     std::vector<bool> is_water_face;
+    /// By vertex: where it is in the CRS that is written. Empty: where the TIN has it.
+    std::vector<Point2> positions;
+    GroundMeasures ground;  ///< of the field `area`
+    double z_factor = 1;  ///< heights count times this in the field `slope`: horizontal units in a unit of z
     Progress progress;
 };
 

@@ -91,8 +91,8 @@ double round_to_series(double value) {
     return from_steps(digit, exponent);
 }
 
-Box choose_extent(const Tin& tin, const GridRequest& request) {
-    const Box extent = request.extent ? *request.extent : tin.bounds();
+Box choose_extent(const Box& bounds, const GridRequest& request) {
+    const Box extent = request.extent ? *request.extent : bounds;
     if (!request.extent && extent.is_empty()) {
         throw InputError("the surface has no faces to make a grid of");
     }
@@ -123,7 +123,7 @@ void check_request(const GridRequest& request) {
     }
 }
 
-Point2 choose_resolution(const Tin& tin, const GridRequest& request, const Box& extent) {
+Point2 choose_resolution(double spacing, const GridRequest& request, const Box& extent) {
     if (request.resolution) {
         return *request.resolution;
     }
@@ -136,7 +136,6 @@ Point2 choose_resolution(const Tin& tin, const GridRequest& request, const Box& 
         return {length(extent.x_min, extent.x_max) / static_cast<double>(request.size->columns),
                 length(extent.y_min, extent.y_max) / static_cast<double>(request.size->rows)};
     }
-    const double spacing = median_spacing(tin);
     if (!(spacing > 0)) {
         throw InputError("the surface has no faces to find a resolution from; give --resolution");
     }
@@ -152,9 +151,16 @@ Box GridGeometry::extent() const {
 }
 
 GridGeometry choose_grid(const Tin& tin, const GridRequest& request) {
+    const bool is_spacing_wanted = !request.resolution && !request.size;
+    return choose_grid(
+        {request.extent ? *request.extent : tin.bounds(), is_spacing_wanted ? median_spacing(tin) : 0},
+        request);
+}
+
+GridGeometry choose_grid(const GridBasis& basis, const GridRequest& request) {
     check_request(request);
-    Box extent = choose_extent(tin, request);
-    const Point2 resolution = choose_resolution(tin, request, extent);
+    Box extent = choose_extent(basis.bounds, request);
+    const Point2 resolution = choose_resolution(basis.spacing, request, extent);
     if (request.align_to_resolution) {
         align(extent.x_min, extent.x_max, resolution.x);
         align(extent.y_min, extent.y_max, resolution.y);

@@ -41,6 +41,12 @@ struct GridRequest {
     bool align_to_resolution = false;  ///< --tap: edges at multiples of the resolution
 };
 
+/// What a raster's default geometry is made from, in the units of the raster's CRS.
+struct GridBasis {
+    Box bounds;          ///< of the terrain
+    double spacing = 0;  ///< median distance from a vertex to its nearest neighbour
+};
+
 /// Fills in what the request leaves open: extent = bounds of the terrain grown to whole cells from its
 /// (x_min, y_max) corner; resolution = extent / size, or without a size half the median distance from a
 /// vertex to its nearest neighbour, rounded to 1, 2 or 5 times a power of ten; size = ceil(extent /
@@ -50,6 +56,9 @@ struct GridRequest {
 /// without a resolution), empty extents, resolutions that are not positive, and rasters beyond 2^31 - 1
 /// columns or rows; InputError where bounds or spacing of a TIN without faces are needed. O(n).
 GridGeometry choose_grid(const Tin& tin, const GridRequest& request);
+
+/// The same for a terrain of which just that is known, one in another system say.
+GridGeometry choose_grid(const GridBasis& basis, const GridRequest& request);
 
 /// Median over the terrain's vertices of the length of their shortest edge (the distance to the nearest
 /// neighbour, on a Delaunay TIN), CRS units. O(n).

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string_view>
@@ -52,6 +53,16 @@ struct CellElevation {
     friend bool operator==(const CellElevation&, const CellElevation&) = default;
 };
 
+/// Where a cell of a raster is in the TIN's plane.
+struct CellPlace {
+    Point2 position{};   ///< of its centre; not finite: nowhere
+    Point2 north{0, 1};  ///< unit vector along the raster's columns upward, as the plane has it
+};
+
+/// The places of a row's cells from column `first` on, for a raster in another system than the TIN's plane.
+/// May be called from several threads at a time, in any order.
+using FindCellPlaces = std::function<void(std::int64_t row, std::int64_t first, std::span<CellPlace> places)>;
+
 struct GriddingOptions {
     std::vector<Product> products{Product::Elevation};
     SlopeUnit slope_unit = SlopeUnit::Degree;
@@ -60,6 +71,9 @@ struct GriddingOptions {
     /// Ascending by cell, distinct. Only for the product Elevation, and only where the centre is on the
     /// terrain.
     std::vector<CellElevation> cells{};
+    /// Empty: the raster lies in the TIN's plane. Else gradients, aspects and light are told by the raster's
+    /// own north and the direction at a right angle east of it.
+    FindCellPlaces find_places{};
 };
 
 /// Fills a raster with what a surface says at its cell centres, band of rows by band of rows.

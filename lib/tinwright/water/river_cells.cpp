@@ -298,8 +298,8 @@ void visit_cells(Point2 a, Point2 b, const GridGeometry& grid,
 }
 
 std::vector<CellElevation> find_river_cells(const Tin& tin, const std::vector<bool>& is_river_line,
-                                            const std::vector<bool>& is_water_face,
-                                            const GridGeometry& grid) {
+                                            const std::vector<bool>& is_water_face, const GridGeometry& grid,
+                                            const std::function<Point2(Point2)>& /*to_raster*/) {
     const std::vector<RiverEdge> edges = find_river_edges(tin, is_river_line);
     const std::vector<RiverPass> passes = find_passes(tin, edges, grid);
     const PassedCells passed = number_cells(passes);

@@ -39,9 +39,12 @@ void visit_cells(Point2 a, Point2 b, const GridGeometry& grid,
 /// by the numbers of `tin.traces`; water runs from their higher to their lower end, and along level ones
 /// either way, so that all cells of a level reach are equal. Cells whose centre is on
 /// water (`is_water_face`, by face; may be empty) are left as they are. Cells whose centre is off the terrain
-/// are listed too. O(c log c), c: the cells passed and edges, and the water's faces.
+/// are listed too. `to_raster`: brings a position of the TIN's plane into the raster's system; empty: they
+/// are the same. Edges are straight in either. O(c log c), c: the cells passed and edges, and the water's
+/// faces.
 std::vector<CellElevation> find_river_cells(const Tin& tin, const std::vector<bool>& is_river_line,
-                                            const std::vector<bool>& is_water_face, const GridGeometry& grid);
+                                            const std::vector<bool>& is_water_face, const GridGeometry& grid,
+                                            const std::function<Point2(Point2)>& to_raster = {});
 
 }  // namespace tinwright
 
