@@ -24,7 +24,7 @@ enum class Product : std::uint8_t {
     GradientX,        ///< rise of z along x, a ratio
     GradientY,        ///< rise of z along y
     Hillshade,        ///< 1 to 255
-    NearestDistance,  ///< to the closest sample, CRS units
+    NearestDistance,  ///< to the closest sample, CRS units of the TIN
     FaceNumber        ///< number of the face in a TIN file of the surface, from 0
 };
 
@@ -78,7 +78,8 @@ struct GriddingOptions {
 
 /// Fills a raster with what a surface says at its cell centres, band of rows by band of rows.
 ///
-/// Which face a cell is on is decided exactly by scan conversion. Gradients are the surface's own, not
+/// Which face a cell is on is decided exactly: by scan conversion, or where cells have places in another plane
+/// by those as rounded to the lattice that surfaces are read by (`QueryLattice`). Gradients are the surface's own, not
 /// differences of cells. Every product has a value in the same cells, those on the terrain, but for the
 /// aspect of level ones.
 class SurfaceGridder {
