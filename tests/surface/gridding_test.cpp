@@ -1,7 +1,6 @@
 #include "tinwright/surface/gridding.hpp"
 
 #include <cmath>
-#include <limits>
 
 #include <doctest/doctest.h>
 #include <tbb/global_control.h>
@@ -13,13 +12,12 @@
 
 #include "support/point_sets.hpp"
 #include "support/tins.hpp"
+#include "surface/filled_rasters.hpp"
 
 using namespace tinwright;
 using namespace tinwright_tests;
 
 namespace {
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 /// Samples on a wavy hill, with decimals.
 Tin hill(std::uint64_t seed, std::size_t count) {
@@ -39,35 +37,6 @@ GridGeometry grid_over(const Tin& tin, std::int64_t columns, std::int64_t rows) 
             (box.y_max - box.y_min + 2) / static_cast<double>(rows),
             columns,
             rows};
-}
-
-/// All bands, one array a product.
-std::vector<std::vector<double>> fill_all(const Tin& tin, const Interpolator* surface,
-                                          const GridGeometry& grid, std::int64_t band_rows,
-                                          const GriddingOptions& options, std::int64_t* covered = nullptr) {
-    SurfaceGridder gridder(tin, surface, grid, band_rows, options);
-    std::vector<std::vector<double>> all(
-        options.products.size(), std::vector<double>(static_cast<std::size_t>(grid.columns * grid.rows)));
-    std::int64_t cells = 0;
-    for (std::int64_t band = 0; band < gridder.band_count(); ++band) {
-        const auto [first, end] = gridder.band_rows(band);
-        std::vector<std::span<double>> values;
-        for (std::vector<double>& of_product : all) {
-            values.push_back(std::span(of_product)
-                                 .subspan(static_cast<std::size_t>(first * grid.columns),
-                                          static_cast<std::size_t>((end - first) * grid.columns)));
-        }
-        cells += gridder.fill(band, values, kNone);
-    }
-    if (covered != nullptr) {
-        *covered = cells;
-    }
-    return all;
-}
-
-bool are_same(const std::vector<double>& a, const std::vector<double>& b) {
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                      [](double p, double q) { return p == q || (std::isnan(p) && std::isnan(q)); });
 }
 
 }  // namespace
