@@ -1,19 +1,219 @@
 #include "tinwright/io/working_plane.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <span>
+#include <vector>
+
+#include <ogr_spatialref.h>
+
 #include "tinwright/geometry/error.hpp"
+#include "tinwright/io/gdal_session.hpp"
+#include "tinwright/io/plane_candidates.hpp"
 
 namespace tinwright::io {
+namespace {
 
-PlaneRequest parse_plane_request(const std::string& /*text*/) { return {}; }
-double ScaleRange::distortion() const { return 0; }
-std::string WorkingPlane::text() const { return crs.name(); }
-WorkingPlane choose_working_plane(const Crs& /*source*/, const GeographicExtent& /*extent*/,
-                                  const PlaneRequest& /*request*/) {
-    return {};
+// A plane that files or users name may be off by so much before it is worth a word.
+constexpr double kWorthAWarning = 0.01;
+
+std::string format(const char* pattern, double value) {
+    std::array<char, 64> text{};
+    (void)std::snprintf(text.data(), text.size(), pattern, value);
+    return text.data();
 }
-std::optional<ScaleRange> find_scale_range(const Crs& /*crs*/, const GeographicExtent& /*extent*/) {
-    return std::nullopt;
+
+/// "0.1 %", with two digits that count.
+std::string percent(double part) {
+    const double value = part * 100;
+    return format(value < 10 ? "%.2g %%" : "%.0f %%", value);
 }
-std::string check_distortion(const WorkingPlane& /*plane*/, const PlaneRequest& /*request*/) { return {}; }
+
+/// The next larger number of two digits: a limit that is kept.
+std::string limit_text(double distortion) {
+    const double step = std::pow(10, std::floor(std::log10(distortion)) - 1);
+    return format("%.2g", std::ceil(distortion / step) * step);
+}
+
+std::string size_text(const GeographicExtent& extent) {
+    constexpr double kKilometresInDegree = 111.2;
+    // Along the parallel of the extent that is the longest.
+    const double widest = extent.south > 0 ? extent.south : std::min(extent.north, 0.0);
+    const double width = (extent.east - extent.west) * std::cos(widest * std::numbers::pi / 180);
+    const double height = extent.north - extent.south;
+    if (extent.has_pole) {
+        return "up to " + format("%.0f km", height * kKilometresInDegree) + " from it";
+    }
+    return format("%.0f", width * kKilometresInDegree) + " by " +
+           format("%.0f km", height * kKilometresInDegree);
+}
+
+/// "UTM zone 14N would be off by 5 %" for each candidate.
+std::string figures(std::span<const PlaneCandidate> candidates) {
+    std::string text;
+    for (const PlaneCandidate& candidate : candidates) {
+        text += text.empty() ? "" : ", ";
+        text += candidate.kind;
+        text += candidate.scale ? " is off by up to " + percent(candidate.distortion())
+                                : " does not reach so far";
+    }
+    return text;
+}
+
+[[noreturn]] void refuse(const GeographicExtent& extent, std::span<const PlaneCandidate> candidates,
+                         const PlaneRequest& request) {
+    double least = candidates.front().distortion();
+    for (const PlaneCandidate& candidate : candidates) {
+        least = std::min(least, candidate.distortion());
+    }
+    std::string advice;
+    if (std::isfinite(least)) {
+        advice = "give --max-distortion " + limit_text(least) + ", ";
+    }
+    if (request.rule == PlaneRequest::Rule::Utm) {
+        advice += "choose --working-crs local, ";
+    }
+    throw InputError("no plane keeps lengths right to " + percent(request.max_distortion) +
+                     " (--max-distortion) over the data's extent, " + extent.text() + " (" +
+                     size_text(extent) + "): " + figures(candidates) + "; " + advice +
+                     "cut the data with where=, or name a projected system made for the area, such as a "
+                     "country's Lambert or Albers, with --working-crs");
+}
+
+WorkingPlane make_plane(const Crs& source, const GeographicExtent& extent, const PlaneCandidate& candidate,
+                        WorkingPlane::Origin origin) {
+    WorkingPlane plane;
+    plane.crs = candidate.crs;
+    plane.origin = origin;
+    plane.source_crs = source;
+    plane.extent = extent;
+    plane.scale = candidate.scale.value_or(ScaleRange{});
+    return plane;
+}
+
+bool is_named(const WorkingPlane& plane) {
+    return plane.origin == WorkingPlane::Origin::Asked || plane.origin == WorkingPlane::Origin::Shared;
+}
+
+std::string lower(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+    return text;
+}
+
+}  // namespace
+
+PlaneRequest parse_plane_request(const std::string& text) {
+    PlaneRequest request;
+    const std::string word = lower(text);
+    if (word == "auto") {
+        return request;
+    }
+    if (word == "utm" || word == "local") {
+        request.rule = word == "utm" ? PlaneRequest::Rule::Utm : PlaneRequest::Rule::Local;
+        return request;
+    }
+    const std::string advice =
+        "; give a projected system such as EPSG:32632, or \"auto\", \"utm\" or \"local\"";
+    try {
+        request.crs = Crs::parse(text);
+    } catch (const UsageError&) {
+        throw UsageError("--working-crs " + quoted(text) + ": not understood" + advice);
+    }
+    const std::string name = "--working-crs " + quoted(text) + ": " + request.crs.name() + " ";
+    const OGRSpatialReference& system = *request.crs.gdal();
+    if (request.crs.is_geocentric()) {
+        throw UsageError(name + "is geocentric, which is no plane" + advice);
+    }
+    if (request.crs.is_geographic()) {
+        throw UsageError(name + "is in degrees, which are no plane" + advice);
+    }
+    if (system.IsVertical() != 0 && system.IsCompound() == 0) {
+        throw UsageError(name + "is for elevations alone" + advice);
+    }
+    request.rule = PlaneRequest::Rule::Given;
+    return request;
+}
+
+std::string WorkingPlane::text() const {
+    if (origin == Origin::Unknown || !crs.is_known()) {
+        return "none";
+    }
+    std::string text = crs.name();
+    switch (origin) {
+        case Origin::Asked:
+            text += ", as asked for";
+            break;
+        case Origin::Shared:
+            text += ", the sources' own";
+            break;
+        case Origin::Utm:
+            text += ", chosen for the data's longitudes and latitudes";
+            break;
+        case Origin::Local:
+            text += ", made for the data's longitudes and latitudes";
+            break;
+        case Origin::Unknown:
+            break;
+    }
+    if (!extent.is_empty) {
+        text += "; scale " + format("%.5f", scale.least) + " to " + format("%.5f", scale.greatest);
+    }
+    return text;
+}
+
+WorkingPlane choose_working_plane(const Crs& source, const GeographicExtent& extent,
+                                  const PlaneRequest& request) {
+    const Crs geographic = source.geographic();
+    if (extent.is_empty || !geographic.is_known()) {
+        throw InputError(
+            "no plane can be chosen without longitudes and latitudes to choose it for; name one with "
+            "--working-crs");
+    }
+    std::vector<PlaneCandidate> candidates;
+    if (request.rule != PlaneRequest::Rule::Local) {
+        candidates.push_back(make_utm(geographic, extent));
+        if (candidates.front().distortion() <= request.max_distortion) {
+            return make_plane(source, extent, candidates.front(), WorkingPlane::Origin::Utm);
+        }
+    }
+    if (request.rule != PlaneRequest::Rule::Utm) {
+        candidates.push_back(make_local_transverse_mercator(geographic, extent));
+        candidates.push_back(make_local_stereographic(geographic, extent));
+        const PlaneCandidate& mercator = candidates[candidates.size() - 2];
+        const PlaneCandidate& stereographic = candidates.back();
+        const PlaneCandidate& best =
+            stereographic.distortion() < mercator.distortion() ? stereographic : mercator;
+        if (best.distortion() <= request.max_distortion) {
+            return make_plane(source, extent, best, WorkingPlane::Origin::Local);
+        }
+    }
+    refuse(extent, candidates, request);
+}
+
+std::string check_distortion(const WorkingPlane& plane, const PlaneRequest& request) {
+    const double distortion = plane.scale.distortion();
+    const bool does_limit_count = !is_named(plane) || request.is_limit_given;
+    if (plane.extent.is_empty || distortion <= std::min(kWorthAWarning, request.max_distortion)) {
+        return {};
+    }
+    const std::string what = plane.crs.name() + " stretches lengths by " + format("%.5g", plane.scale.least) +
+                             " to " + format("%.5g", plane.scale.greatest) + " over the data (" +
+                             plane.extent.text() + ")";
+    if (does_limit_count && distortion > request.max_distortion) {
+        throw InputError(what + ", more than the " + percent(request.max_distortion) +
+                         " of --max-distortion; give --working-crs local, another projected system, or "
+                         "--max-distortion " +
+                         limit_text(distortion));
+    }
+    if (!is_named(plane) || distortion <= kWorthAWarning) {
+        return {};
+    }
+    return what +
+           ": distances, areas and slopes are off by that; --working-crs local makes a plane for the data";
+}
 
 }  // namespace tinwright::io

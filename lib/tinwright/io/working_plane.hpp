@@ -36,6 +36,8 @@ struct ScaleRange {
     double greatest = 1;
     /// Greatest |scale - 1|.
     [[nodiscard]] double distortion() const;
+    /// A bound on how far beyond this range the scale may go between the places that were looked at.
+    [[nodiscard]] double uncertainty() const;
 };
 
 /// The plane of a job.
@@ -69,9 +71,13 @@ struct WorkingPlane {
 WorkingPlane choose_working_plane(const Crs& source, const GeographicExtent& extent,
                                   const PlaneRequest& request);
 
-/// The scale of a projected system over an extent, by PROJ's factors at points of a net over it, edges
-/// included. Empty when it cannot be told: a local engineering system, an extent outside of the projection.
-/// `extent` in degrees of the system's own geographic one. O(1), some milliseconds.
+/// The scale of a projected system over an extent, by the derivatives of the projection at places of a net of
+/// 25 by 25 over it, edges included, and of finer ones around its extremes. Between those places the scale of
+/// a projection without a singularity nearby exceeds what is found by less than a 250th of greatest - least
+/// (a net of 25 lines a side misses 1/576 of the rise of a parabola, each way), and derivatives are right to
+/// 1e-8 (`ScaleRange::uncertainty`). Empty when it cannot be told: a local engineering system, or one place
+/// at least that cannot be projected. `extent` in degrees of the system's own geographic one. O(1), some
+/// 20 milliseconds.
 std::optional<ScaleRange> find_scale_range(const Crs& crs, const GeographicExtent& extent);
 
 /// Throws InputError when the plane's distortion exceeds a limit that counts for it; else returns what there
