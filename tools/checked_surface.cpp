@@ -104,12 +104,18 @@ std::string open_edges_text(const ConformityReport& conformity) {
 
 }  // namespace
 
-CheckedSurface check_surface(const io::Source& source, const OptimalityOptions& optimality,
-                             ProgressLine& progress, double begin, double end) {
+CheckedSurface check_surface(const io::Source& source, const CrsOptions& crs,
+                             const OptimalityOptions& optimality, ProgressLine& progress, double begin,
+                             double end) {
     // Proving takes longer than all the rest.
     const double read = begin + (end - begin) * (optimality.criterion ? 0.1 : 0.5);
     const double audited = begin + (end - begin) * (optimality.criterion ? 0.2 : 1.0);
     io::TinFile file = io::read_tin_file(source, progress.stage(begin, read));
+    if (file.crs.is_geographic()) {
+        io::ReadOptions placing;
+        crs.apply_to(placing);
+        io::place_tin(file, source, placing);
+    }
     CheckedSurface surface;
     surface.file = source.path;
     surface.layer = file.layer;

@@ -14,6 +14,7 @@
 
 #include "json_value.hpp"
 #include "optimality_check.hpp"
+#include "options_crs.hpp"
 #include "progress.hpp"
 
 namespace tinwright::tools {
@@ -44,8 +45,9 @@ struct CheckedSurface {
 
 /// Reads and audits a TIN file, and proves it optimal again where `optimality` asks for that. `begin`, `end`:
 /// its share of the progress. Throws as `io::read_tin_file` does.
-CheckedSurface check_surface(const io::Source& source, const OptimalityOptions& optimality,
-                             ProgressLine& progress, double begin, double end);
+CheckedSurface check_surface(const io::Source& source, const CrsOptions& crs,
+                             const OptimalityOptions& optimality, ProgressLine& progress, double begin,
+                             double end);
 
 /// One line a listed violation or improvable face.
 std::string violation_lines(const CheckedSurface& surface);

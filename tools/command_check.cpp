@@ -111,6 +111,7 @@ void CommandCheck::setup(const std::vector<std::string>& arguments) {
     check_key_values("--oo", sources.open_options);
     lines.finish(sources.open_options);
     if (!sources.texts.empty() || lines.sources.empty()) {
+        crs.finish();
         sources.finish();
     }
     audit.finish();
@@ -189,12 +190,10 @@ CheckedLines CommandCheck::check_lines_and_samples(const Sorted& sorted, const T
     const double begin = sorted.tins.empty() ? 0 : kTinShare;
     const auto share = [&](double of_rest) { return begin + (1 - begin) * of_rest; };
     CheckedLines checked;
-    checked.lines.crs = crs.crs();
     if (!sorted.samples.empty()) {
         io::ReadOptions options;
         options.skip_bad = true;
-        options.crs = crs.crs();
-        options.source_crs = crs.source_crs();
+        crs.apply_to(options);
         options.threads = 0;
         options.progress = console.progress().stage(share(0), share(0.4));
         checked.samples = io::read_samples(sorted.samples, options);
@@ -202,9 +201,7 @@ CheckedLines CommandCheck::check_lines_and_samples(const Sorted& sorted, const T
     if (!sorted.lines.empty()) {
         io::ReadLinesOptions options;
         options.keep_faults = true;
-        options.crs = checked.samples.crs.is_known() ? checked.samples.crs : crs.crs();
-        options.source_crs = crs.source_crs();
-        options.z_unit = checked.samples.z_unit;
+        crs.apply_to(options, checked.samples);
         options.progress = console.progress().stage(share(0.4), share(0.5));
         checked.lines = io::read_lines(sorted.lines, options);
     }
@@ -268,7 +265,7 @@ Outcome CommandCheck::run() {
         (has_lines ? kTinShare : 1.0) / static_cast<double>(std::max<std::size_t>(1, sorted.tins.size()));
     for (const io::Source& source : sorted.tins) {
         const double begin = share * static_cast<double>(surfaces.size());
-        surfaces.push_back(check_surface(source, optimality, console.progress(), begin, begin + share));
+        surfaces.push_back(check_surface(source, crs, optimality, console.progress(), begin, begin + share));
         found += surfaces.back().violation_count() + surfaces.back().improvable();
     }
     std::vector<std::string> outputs;

@@ -45,11 +45,12 @@ void CommandContour::setup(const std::vector<std::string>& arguments) {
     triangulation.add_to(*parser, "trimmed");
     lines.add_constraints_to(*parser);
     lines.add_fitting_to(*parser);
-    crs.add_to(*parser);
+    crs.add_to(*parser, false);
     triangulation.add_threads_to(*parser);
     talk.add_to(*parser);
     parse_options(*parser, arguments);
 
+    crs.finish();
     sources.finish(lines.has_breaklines());
     lines.finish(sources.open_options);
     output.finish(true);

@@ -48,6 +48,7 @@ void CommandExplain::setup(const std::vector<std::string>& arguments) {
     parse_options(*parser, rewrite_coordinates(arguments));
 
     take_coordinate();
+    crs.finish();
     sources.finish(lines.has_breaklines());
     lines.finish(sources.open_options);
     sample.finish({});

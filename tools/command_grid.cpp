@@ -56,11 +56,12 @@ void CommandGrid::setup(const std::vector<std::string>& arguments) {
          {"--conforming-method", "--max-steiner", "--crossing-tolerance", "--line-tolerance"}) {
         parser->get_option(rare)->group("");  // the screen is full: told of in the manual page
     }
-    crs.add_to(*parser);
+    crs.add_to(*parser, false);
     triangulation.add_threads_to(*parser);
     talk.add_to(*parser);
     parse_options(*parser, arguments);
 
+    crs.finish();
     sources.finish(lines.has_breaklines());
     lines.finish(sources.open_options);
     output.finish(true);

@@ -99,6 +99,7 @@ void CommandHydro::setup(const std::vector<std::string>& arguments) {
     const auto parser = make_parser_of(action);
     parse_options(*parser, {arguments.begin() + 1, arguments.end()});
 
+    crs.finish();
     sources.finish(true);
     water.finish(sources.open_options);
     if (sources.sources.empty() && water.sources.empty()) {
@@ -177,8 +178,7 @@ LevelRequest CommandHydro::sort_sources(Console& console) const {
             "no water is given: the sources are samples; name it with --lakes, --rivers or --banks");
     }
     water.check_roles(roles);
-    request.crs = crs.crs();
-    request.source_crs = crs.source_crs();
+    request.crs = crs;
     request.skip_bad = sources.skip_bad;
     request.threads = triangulation.threads;
     request.options = water.options;

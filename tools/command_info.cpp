@@ -21,6 +21,7 @@ void CommandInfo::setup(const std::vector<std::string>& arguments) {
     talk.add_to(*parser);
     parse_options(*parser, arguments);
 
+    crs.finish();
     sources.finish();
     // Conflicts are to be counted and shown, not to end the command that was asked to show them.
     triangulation.finish(DomainRule::Kind::Convex, DuplicatePolicy::Mean);

@@ -76,6 +76,7 @@ void CommandSample::setup(const std::vector<std::string>& arguments) {
     talk.add_to(*parser);
     parse_options(*parser, rewrite_coordinates(arguments));
 
+    crs.finish();
     sources.finish(lines.has_breaklines());
     lines.finish(sources.open_options);
     sample.finish(sources.open_options);

@@ -70,6 +70,7 @@ void CommandTin::setup(const std::vector<std::string>& arguments) {
 }
 
 void CommandTin::finish_tin() {
+    crs.finish();
     sources.finish(lines.has_breaklines());
     lines.finish(sources.open_options);
     geometry =
@@ -91,6 +92,7 @@ void CommandTin::finish_graph() {
     if (!option.empty()) {
         throw UsageError("--graph writes lines between samples, and no TIN: " + option + " does not apply");
     }
+    crs.finish();
     sources.finish();
     graph.finish(triangulation.norm_text);
     triangulation.finish_samples();
@@ -106,7 +108,8 @@ io::WriteTinOptions CommandTin::write_options() const {
     options.overwrite = output.overwrite;
     options.metadata = {{"TINWRIGHT_VERSION", TINWRIGHT_VERSION},
                         {"TINWRIGHT_COMMAND", "tin"},
-                        {"TINWRIGHT_OPTIONS", triangulation.canonical() + lines.canonical()}};
+                        {"TINWRIGHT_OPTIONS", triangulation.canonical() + lines.canonical() +
+                                                  (crs.canonical().empty() ? "" : " " + crs.canonical())}};
     return options;
 }
 
@@ -121,7 +124,8 @@ io::WriteGraphOptions CommandTin::write_graph_options() const {
     options.overwrite = output.overwrite;
     options.metadata = {{"TINWRIGHT_VERSION", TINWRIGHT_VERSION},
                         {"TINWRIGHT_COMMAND", "tin"},
-                        {"TINWRIGHT_OPTIONS", graph.canonical() + " " + triangulation.canonical_samples()}};
+                        {"TINWRIGHT_OPTIONS", graph.canonical() + " " + triangulation.canonical_samples() +
+                                                  (crs.canonical().empty() ? "" : " " + crs.canonical())}};
     return options;
 }
 

@@ -155,23 +155,21 @@ LeveledWater read_leveled_water(const LevelRequest& request, Console& console) {
     if (!request.samples.empty()) {
         io::ReadOptions options;
         options.skip_bad = request.skip_bad;
-        options.crs = request.crs;
-        options.source_crs = request.source_crs;
+        request.crs.apply_to(options);
         options.threads = request.threads;
         options.progress = stage(0, 0.5);
         leveled.samples = io::read_samples(request.samples, options);
     }
     io::ReadLinesOptions options;
     options.skip_bad = request.skip_bad;
-    options.crs = request.samples.empty() ? request.crs : leveled.samples.crs;
-    options.source_crs = request.source_crs;
-    options.z_unit = leveled.samples.z_unit;
+    request.crs.apply_to(options, leveled.samples);
     options.progress = stage(0.5, 0.6);
     leveled.lines = io::read_lines(request.lines, options);
     if (request.samples.empty() && request.raster) {
         take_elevations(leveled.lines, *request.raster);
     }
-    leveled.crs = leveled.samples.crs.is_known() ? leveled.samples.crs : leveled.lines.crs;
+    leveled.plane = leveled.samples.crs.is_known() ? leveled.samples.plane : leveled.lines.plane;
+    leveled.crs = leveled.plane.crs;
     warn_all(console, leveled.samples.warnings);
     warn_all(console, leveled.lines.warnings);
     WaterOptions levels = request.options;

@@ -14,6 +14,7 @@
 #include "tinwright/water/water.hpp"
 
 #include "console.hpp"
+#include "options_crs.hpp"
 
 namespace tinwright::tools {
 
@@ -30,7 +31,8 @@ struct LeveledWater {
     std::vector<io::LineSource> line_sources;  ///< of `lines`
     io::Samples samples;
     io::Lines lines;
-    io::Crs crs;  ///< the working CRS, may be unknown
+    io::Crs crs;             ///< of the plane; may be unknown
+    io::WorkingPlane plane;  ///< how that came about
     WaterOptions options;
     Water water;
     std::optional<CheckedRaster> raster;
@@ -46,8 +48,7 @@ struct LeveledWater {
 struct LevelRequest {
     std::vector<io::Source> samples;
     std::vector<io::LineSource> lines;
-    io::Crs crs;
-    io::Crs source_crs;
+    CrsOptions crs;
     bool skip_bad = false;
     int threads = 0;
     WaterOptions options;  ///< without progress

@@ -33,7 +33,8 @@ struct CrsOptions {
     io::HeightRequest heights;
     std::optional<double> epoch;
 
-    void add_to(CLI::App& parser);
+    /// `shows_heights`: the help screen has room for what is about elevations.
+    void add_to(CLI::App& parser, bool shows_heights = true);
     /// Reads the texts. Throws UsageError.
     void finish();
 
@@ -43,8 +44,8 @@ struct CrsOptions {
     [[nodiscard]] io::Crs source_crs() const;
     /// Hands all of it to a reader.
     void apply_to(io::ReadOptions& options) const;
-    /// But for the CRS and z unit that lines are brought to, which are the samples'.
-    void apply_to(io::ReadLinesOptions& options) const;
+    /// Lines are brought to the samples' plane and unit, where those have any.
+    void apply_to(io::ReadLinesOptions& options, const io::Samples& samples) const;
     /// The first option given that a TIN, whose vertices are as they are, leaves no room for, or empty.
     [[nodiscard]] std::string option_for_samples_only() const;
     /// The options that affect results, in a fixed order: what outputs record.

@@ -10,7 +10,8 @@ namespace {
 std::string surface_options(const Surface& surface, const TriangulationOptions& triangulation,
                             const LineOptions& lines) {
     if (surface.report) {
-        return triangulation.canonical() + lines.canonical();
+        const std::string& references = surface.reference_options;
+        return triangulation.canonical() + lines.canonical() + (references.empty() ? "" : " " + references);
     }
     std::string options = metadata_value(surface.metadata, "TINWRIGHT_OPTIONS");
     if (triangulation.max_edge) {

@@ -54,13 +54,16 @@ Inputs read_inputs(const SurfaceRequest& request, Console& console, double end) 
     if (has_lines) {
         io::ReadLinesOptions line_options;
         line_options.skip_bad = options.skip_bad;
-        request.crs.apply_to(line_options);
-        line_options.crs = inputs.samples.crs;
-        line_options.z_unit = inputs.samples.z_unit;
+        request.crs.apply_to(line_options, inputs.samples);
         line_options.snap = request.lines->noding.snap;
         line_options.progress = console.progress().stage(samples_end, end);
         inputs.lines = io::read_lines(request.lines->sources, line_options);
         const bool is_crs_new = inputs.lines.crs.is_known() && !inputs.samples.crs.is_known();
+        if (is_crs_new && !inputs.samples.points.empty() && inputs.lines.plane.is_source_geographic()) {
+            throw UsageError("the samples have no CRS, and the lines are in longitude and latitude, " +
+                             inputs.lines.plane.source_crs.name() +
+                             ": assign the samples' with --source-crs");
+        }
         if (is_crs_new && !inputs.samples.points.empty()) {
             inputs.lines.warnings.push_back("the samples have no CRS; taken to be in " +
                                             inputs.lines.crs.name() + " as the lines are");
@@ -102,9 +105,12 @@ void set_references(const CrsOptions& options, io::WorkingPlane plane, Surface& 
     surface.crs = plane.crs;
     surface.plane = std::move(plane);
     const io::Crs asked = options.crs();
-    surface.output_crs = asked.is_known() ? asked : surface.crs;
+    const bool is_elsewhere =
+        asked.is_known() && surface.crs.is_known() && !asked.is_same_horizontally(surface.crs);
+    surface.output_crs = is_elsewhere ? asked.with_heights_of(surface.crs) : surface.crs;
     surface.ground = io::make_ground_measures(surface.plane);
     surface.z_factor = io::unit_factor(surface.z_unit, surface.crs.unit());
+    surface.reference_options = options.canonical();
 }
 
 SourceName name_of(const io::SampleSlice& slice) {
@@ -155,6 +161,26 @@ TinOrigins origins_of_file(const Tin& tin, const io::TinFile& file) {
     return origins;
 }
 
+/// Brings a TIN file's vertices into a plane where they are in degrees.
+io::WorkingPlane place_tin(const io::Source& source, const SurfaceRequest& request, io::TinFile& file,
+                           Console& console) {
+    io::ReadOptions options;
+    request.crs.apply_to(options);
+    if (file.crs.is_known() && options.crs.heights() != io::Crs::Heights::Unknown &&
+        file.crs.heights() != io::Crs::Heights::Unknown && !options.crs.has_same_heights(file.crs)) {
+        throw UsageError(
+            "--crs " + options.crs.name() + " measures elevations from elsewhere than " +
+            io::quoted(source.path) + ", " + file.crs.name() +
+            ": those of a TIN are not transformed; add ,as=samples to triangulate its vertices anew");
+    }
+    io::WorkingPlane plane;
+    run_with_threads(request.triangulation.threads, [&] { plane = io::place_tin(file, source, options); });
+    for (const std::string& warning : file.warnings) {
+        console.warn(warning);
+    }
+    return plane;
+}
+
 /// Has flat faces removed while `options` are carried out, and reported in `surface`.
 void treat_flat_faces(const TriangulationOptions& triangulation, Surface& surface,
                       TriangulateOptions& options) {
@@ -193,6 +219,9 @@ bool is_existing_tin(const SurfaceRequest& request) {
                          ",as=samples to take its vertices as samples");
     }
     std::string option = request.triangulation.option_for_samples_only();
+    if (option.empty()) {
+        option = request.crs.option_for_samples_only();
+    }
     if (option.empty() && request.lines != nullptr) {
         option = request.lines->first_given();
     }
@@ -298,13 +327,8 @@ Surface read_existing_tin(const SurfaceRequest& request, Console& console) {
     const Clock::time_point start = Clock::now();
     const io::Source& source = request.sources.sources.front();
     io::TinFile file = io::read_tin_file(source, console.progress().stage(0, request.progress_end));
-    const io::Crs wanted = request.crs.crs();
-    if (wanted.is_known() && file.crs.is_known() && !wanted.is_same(file.crs)) {
-        throw UsageError("--crs " + wanted.name() + " differs from the CRS of " + io::quoted(source.path) +
-                         ", " + file.crs.name() + ": a TIN is not transformed");
-    }
-    const io::Crs assigned = request.crs.source_crs();
     Surface surface;
+    const io::WorkingPlane plane = place_tin(source, request, file, console);
     surface.tin = io::make_tin(file);
     surface.is_water_face = io::water_faces_of(file, surface.tin);
     for (const io::LineOrigin& line : file.lines) {
@@ -314,10 +338,8 @@ Surface read_existing_tin(const SurfaceRequest& request, Console& console) {
     if (request.keep_origins) {
         surface.origins = origins_of_file(surface.tin, file);
     }
-    io::WorkingPlane plane;
-    plane.crs = file.crs.is_known() ? file.crs : assigned.is_known() ? assigned : wanted;
-    surface.z_unit = plane.crs.z_unit();
-    set_references(request.crs, std::move(plane), surface);
+    surface.z_unit = plane.crs.z_unit().empty() ? request.crs.heights.source_unit : plane.crs.z_unit();
+    set_references(request.crs, plane, surface);
     surface.metadata = std::move(file.metadata);
     surface.criterion = read_criterion_report(surface.metadata);
     surface.lines = read_lines_summary(surface.metadata);

@@ -46,6 +46,7 @@ struct Surface {
     std::string z_unit;      ///< empty when unknown
     /// Horizontal units in a unit of z, so that slopes are true ratios; 1 where either unit is unknown.
     double z_factor = 1;
+    std::string reference_options;            ///< `CrsOptions::canonical`
     std::vector<io::SampleSlice> slices;      ///< what was read, without ids; empty for a TIN file
     std::optional<TriangulateReport> report;  ///< only when triangulated
     CriterionReport criterion;

@@ -1,19 +1,23 @@
 #include "tinwright/io/placement.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <locale>
 #include <sstream>
-#include <string_view>
 #include <utility>
+
+#include <ogr_spatialref.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 
 #include "tinwright/geometry/error.hpp"
 #include "tinwright/io/gdal_session.hpp"
-#include "tinwright/io/transform_points.hpp"
+#include "tinwright/io/length_unit.hpp"
 
 namespace tinwright::io {
 namespace {
+
+constexpr std::size_t kBlock = 65536;
 
 std::string label(const Source& source) { return "file " + quoted(source.path); }
 
@@ -25,107 +29,104 @@ std::string number(double value) {
     return text.str();
 }
 
-/// Units as the files spell them, by one name each.
-std::string z_unit_name(const std::string& unit) {
-    constexpr std::array<std::pair<std::string_view, std::string_view>, 14> kNames = {
-        {{"m", "metre"},
-         {"meter", "metre"},
-         {"meters", "metre"},
-         {"metres", "metre"},
-         {"Metre", "metre"},
-         {"Meter", "metre"},
-         {"ft", "foot"},
-         {"feet", "foot"},
-         {"Feet", "foot"},
-         {"US Survey Foot", "US survey foot"},
-         {"us-ft", "US survey foot"},
-         {"ftUS", "US survey foot"},
-         {"US_survey_foot", "US survey foot"},
-         {"survey_foot", "US survey foot"}}};
-    for (const auto& [spelling, name] : kNames) {
-        if (unit == spelling) {
-            return std::string(name);
-        }
-    }
-    return unit;
+/// One name a unit; what is none is kept as the file spells it.
+std::string unit_name(const std::string& spelling) {
+    const std::optional<LengthUnit> unit = find_length_unit(spelling);
+    return unit ? unit->name : spelling;
 }
 
-/// "EPSG:32612", the WGS 84 / UTM zone at the middle of points given in degrees; empty when they are not.
-std::string utm_zone(std::span<const Point3> points) {
-    const auto [west, east] = std::minmax_element(points.begin(), points.end(),
-                                                  [](const Point3& a, const Point3& b) { return a.x < b.x; });
-    const auto [south, north] = std::minmax_element(
-        points.begin(), points.end(), [](const Point3& a, const Point3& b) { return a.y < b.y; });
-    const double longitude = std::remainder((west->x + east->x) / 2, 360.0);
-    const double latitude = (south->y + north->y) / 2;
-    if (!(std::abs(latitude) <= 84) || !(std::abs(longitude) <= 180)) {
-        return {};
+template <class Work>
+void for_each_point(std::span<Point3> points, const Work& work) {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points.size(), kBlock), [&](const auto& range) {
+        for (std::size_t i = range.begin(); i != range.end(); ++i) {
+            work(points[i], i);
+        }
+    });
+}
+
+/// Positions in a geographic system as degrees east of Greenwich and north.
+std::vector<Point3> in_degrees(std::span<const Point3> points, const Crs& geographic) {
+    const double unit = geographic.gdal()->GetAngularUnits() * 180 / std::acos(-1.0);
+    const double meridian = geographic.gdal()->GetPrimeMeridian();
+    const bool is_degree = std::abs(unit - 1) < 1e-12;
+    std::vector<Point3> degrees(points.begin(), points.end());
+    for_each_point(degrees, [&](Point3& point, std::size_t) {
+        point.x = (is_degree ? point.x : point.x * unit) + meridian;
+        point.y = is_degree ? point.y : point.y * unit;
+    });
+    return degrees;
+}
+
+/// Systems that degrees east of Greenwich can be taken to be in: the system itself, or WGS 84 for one of
+/// other units or another meridian.
+Crs in_plain_degrees(const Crs& geographic) {
+    const bool is_plain = std::abs(geographic.gdal()->GetAngularUnits() - std::acos(-1.0) / 180) < 1e-14 &&
+                          geographic.gdal()->GetPrimeMeridian() == 0;
+    return is_plain ? geographic : Crs::parse("EPSG:4326");
+}
+
+/// Points along the edges and inside of a box.
+std::vector<Point3> net_over(const Box& box) {
+    constexpr int kSteps = 20;
+    std::vector<Point3> net;
+    for (int i = 0; i <= kSteps; ++i) {
+        for (int j = 0; j <= kSteps; ++j) {
+            net.push_back({std::lerp(box.x_min, box.x_max, i / static_cast<double>(kSteps)),
+                           std::lerp(box.y_min, box.y_max, j / static_cast<double>(kSteps)), 0});
+        }
     }
-    const int zone = std::min(60, 1 + static_cast<int>(std::floor((longitude + 180) / 6)));
-    return "EPSG:" + std::to_string((latitude < 0 ? 32700 : 32600) + zone);
+    return net;
 }
 
 }  // namespace
 
-Placement::Placement(std::span<const Source> sources, Crs working, Crs assigned)
-    : sources_(sources),
-      crs_(std::move(working)),
-      assigned_(std::move(assigned)),
-      is_asked_for_(crs_.is_known()) {
-    if (crs_.is_geographic()) {
-        throw UsageError("--crs " + crs_.name() +
-                         " is geographic: degrees cannot be measured as a plane; give a projected system");
-    }
+Placement::Placement(std::span<const Source> sources, PlacementOptions options)
+    : sources_(sources), options_(std::move(options)), noted_(sources.size()) {
     for (const Source& source : sources) {
         given_.push_back(source.crs ? Crs::parse(*source.crs) : Crs());
     }
+    if (options_.crs.is_geocentric()) {
+        throw UsageError("--crs " + options_.crs.name() +
+                         " is geocentric, without elevations; give a geographic or projected system");
+    }
+    if (options_.crs.heights() != Crs::Heights::Unknown) {
+        options_.heights.is_to_ellipsoid = options_.crs.heights() == Crs::Heights::Ellipsoidal;
+    }
+    if (!options_.heights.geoid.empty()) {
+        geoid_ = std::make_unique<Geoid>(options_.heights.geoid);
+    }
 }
 
-std::vector<std::size_t> Placement::place(std::size_t s, const CoordinateSystem& own,
-                                          std::span<Point3> points, const Progress& progress) {
-    const Crs crs = system_of(s, own);
-    std::string z_unit = own.z_unit.empty() ? crs.z_unit() : z_unit_name(own.z_unit);
-    std::vector<std::size_t> failed;
-    if (!crs.is_known()) {
-        without_crs_.push_back(s);
-    } else if (!crs_.is_known()) {
-        refuse_geographic(s, crs, points);
-        crs_ = crs;
-        decided_by_ = s;
-    } else if (!crs.is_same(crs_)) {
-        if (!is_asked_for_) {
-            throw InputError(label(sources_[decided_by_]) + " is in " + crs_.name() + ", " +
-                             label(sources_[s]) + " in " + crs.name() +
-                             "; give the system to work in with --crs");
+void Placement::note(std::size_t s, const CoordinateSystem& own, std::span<Point3> points) {
+    Noted& noted = noted_[s];
+    noted.crs = system_of(s, own);
+    noted.epoch = noted.crs.epoch() ? noted.crs.epoch() : options_.epoch;
+    noted.is_noted = true;
+    noted.z_unit = !own.z_unit.empty() ? unit_name(own.z_unit) : noted.crs.z_unit();
+    if (noted.z_unit.empty()) {
+        noted.z_unit = options_.heights.source_unit;
+    }
+    if (own.is_north_first) {
+        for_each_point(points, [](Point3& point, std::size_t) { std::swap(point.x, point.y); });
+    }
+    if (noted.crs.is_geocentric()) {
+        throw InputError(label(sources_[s]) + ": coordinates are geocentric, " + noted.crs.name() +
+                         ", without elevations; transform them first, for example to EPSG:4979");
+    }
+    noted.is_guessed = !noted.crs.is_known();
+    if (noted.is_guessed && options_.crs.is_geographic()) {
+        noted.crs = options_.crs;
+    }
+    if (noted.crs.is_geographic()) {
+        for (std::size_t begin = 0; begin < points.size(); begin += kBlock) {
+            extent_.add(
+                in_degrees(points.subspan(begin, std::min(kBlock, points.size() - begin)), noted.crs));
         }
-        from_ = crs;
-        failed = transform_points(points, crs, crs_, progress);
-        if (!crs.z_unit().empty() && !crs_.z_unit().empty()) {
-            z_unit = crs_.z_unit();
+    } else {
+        for (const Point3& point : points) {
+            noted.bounds.add(point.x, point.y);
         }
     }
-    note_z_unit(s, z_unit);
-    return failed;
-}
-
-std::string Placement::failure(const Point3& point) const {
-    std::string text = number(point.x) + ", " + number(point.y);
-    text.insert(text.begin(), '(');
-    return text + ") cannot be transformed from " + from_.name() + " to " + crs_.name();
-}
-
-std::vector<std::string> Placement::take_warnings() { return std::exchange(warnings_, {}); }
-
-std::string Placement::missing_warning() const {
-    if (without_crs_.empty() || !crs_.is_known()) {
-        return {};
-    }
-    std::vector<std::string> files;
-    for (const std::size_t s : without_crs_) {
-        files.push_back(sources_[s].path);
-    }
-    return (files.size() == 1 ? "file " : "files ") + quoted_list(files) +
-           (files.size() == 1 ? ": has" : ": have") + " no CRS; taken to be in " + crs_.name();
 }
 
 Crs Placement::system_of(std::size_t s, const CoordinateSystem& own) {
@@ -139,35 +140,302 @@ Crs Placement::system_of(std::size_t s, const CoordinateSystem& own) {
     if (own.crs.is_known()) {
         return own.crs;
     }
-    if (own.is_lon_lat && !assigned_.is_known()) {
+    if (own.is_lon_lat && !options_.source_crs.is_known() && !options_.crs.is_geographic()) {
         throw InputError(label(sources_[s]) +
                          ": coordinates are longitude and latitude in an unknown system; give theirs, for "
-                         "example crs=EPSG:4326, and a projected one with --crs");
+                         "example crs=EPSG:4326");
     }
-    return assigned_;
+    return options_.source_crs;
 }
 
-void Placement::refuse_geographic(std::size_t s, const Crs& crs, std::span<const Point3> points) const {
-    if (!crs.is_geographic()) {
-        return;
-    }
-    const std::string zone = utm_zone(points);
-    throw InputError(label(sources_[s]) + ": coordinates are geographic, " + crs.name() +
-                     ", and degrees cannot be measured as a plane; give a projected system with --crs" +
-                     (zone.empty() ? "" : ", for example --crs " + zone));
+const Placement::Noted* Placement::first_known() const {
+    const auto known = std::find_if(noted_.begin(), noted_.end(), [](const Noted& noted) {
+        return noted.is_noted && noted.crs.is_known();
+    });
+    return known == noted_.end() ? nullptr : &*known;
 }
 
-void Placement::note_z_unit(std::size_t s, const std::string& unit) {
-    if (unit.empty()) {
+bool Placement::is_asked_for() const {
+    return options_.crs.is_known() || options_.plane.rule != PlaneRequest::Rule::Auto;
+}
+
+void Placement::require_shared_system() const {
+    const Noted* const first = first_known();
+    if (first == nullptr || is_asked_for()) {
         return;
+    }
+    for (const Noted& noted : noted_) {
+        if (noted.is_noted && noted.crs.is_known() && !noted.crs.is_same_horizontally(first->crs)) {
+            const auto a = static_cast<std::size_t>(first - noted_.data());
+            const auto b = static_cast<std::size_t>(&noted - noted_.data());
+            throw InputError(label(sources_[a]) + " is in " + first->crs.name() + ", " + label(sources_[b]) +
+                             " in " + noted.crs.name() + "; give the system to work in with --crs");
+        }
+    }
+}
+
+void Placement::choose_plane() {
+    require_shared_system();
+    choose_horizontally();
+    choose_heights();
+    choose_z_unit();
+    place_guessed_sources();
+}
+
+void Placement::choose_horizontally() {
+    using Rule = PlaneRequest::Rule;
+    using Origin = WorkingPlane::Origin;
+    const Noted* const first = first_known();
+    const Rule rule = options_.is_plane_decided ? Rule::Auto : options_.plane.rule;
+    if (rule == Rule::Given) {
+        plane_.crs = options_.plane.crs;
+        plane_.origin = Origin::Asked;
+    } else if (rule == Rule::Auto && options_.crs.is_plane()) {
+        plane_.crs = options_.crs;
+        plane_.origin = Origin::Asked;
+    } else if (rule == Rule::Auto && first != nullptr && first->crs.is_plane()) {
+        plane_.crs = first->crs;
+        plane_.origin = Origin::Shared;
+    }
+    if (!plane_.crs.is_known() && first == nullptr && rule != Rule::Auto) {
+        throw InputError(
+            "--working-crs needs to know where on the earth the sources are, and none carries a CRS; "
+            "assign one with --source-crs");
+    }
+    if (plane_.crs.is_known() || first != nullptr) {
+        measure_plane();
+    }
+    if (first != nullptr && first->crs.is_geographic()) {
+        plane_.source_crs = first->crs.horizontal();
+    }
+}
+
+/// The data's extent on the earth, and the plane: chosen for it, or how true the one chosen is.
+void Placement::measure_plane() {
+    const Noted* const first = first_known();
+    for (const Noted& noted : noted_) {
+        const Crs& crs = noted.crs.is_known() ? noted.crs : plane_.crs;
+        const Crs geographic = crs.geographic();
+        if (!noted.is_noted || noted.bounds.is_empty() || !crs.is_plane() || !geographic.is_known()) {
+            continue;
+        }
+        std::vector<Point3> net = net_over(noted.bounds);
+        const std::vector<std::size_t> failed =
+            CoordinateTransform(crs.horizontal(), geographic).forward(net);
+        for (const std::size_t i : failed) {
+            net[i].y = std::numeric_limits<double>::quiet_NaN();  // not looked at
+        }
+        extent_.add(in_degrees(net, geographic));
+    }
+    const GeographicExtent extent = extent_.extent();
+    if (!plane_.crs.is_known()) {
+        const Crs geographic = first->crs.geographic();
+        if (!geographic.is_known()) {
+            throw InputError(label(sources_[static_cast<std::size_t>(first - noted_.data())]) + ": " +
+                             first->crs.name() +
+                             " has no place on the earth that a plane could be chosen for; leave out "
+                             "--working-crs, or assign the true system with crs=");
+        }
+        plane_ = choose_working_plane(in_plain_degrees(geographic), extent, options_.plane);
+        plane_.source_crs = {};
+        return;
+    }
+    plane_.extent = extent;
+    if (const std::optional<ScaleRange> scale = find_scale_range(plane_.crs.horizontal(), extent)) {
+        plane_.scale = *scale;
+    }
+    if (!options_.is_plane_decided) {
+        if (std::string warning = check_distortion(plane_, options_.plane); !warning.empty()) {
+            warnings_.push_back(std::move(warning));
+        }
+        if (const std::string axes = plane_.crs.axis_directions(); !axes.empty()) {
+            warnings_.push_back("in " + plane_.crs.name() + " " + axes +
+                                "; rows of rasters and aspects go by these axes");
+        }
+    }
+}
+
+/// What elevations are measured from: as asked for, as the plane given has it, or as the first source says.
+void Placement::choose_heights() {
+    using Heights = Crs::Heights;
+    Crs wanted = options_.crs.heights() != Heights::Unknown ? options_.crs : options_.plane.crs;
+    if (wanted.heights() == Heights::Unknown && geoid_ != nullptr) {
+        const std::string vertical = geoid_->vertical_code();
+        if (!plane_.crs.is_known()) {
+            throw InputError(
+                "--geoid needs to know where on the earth the samples are; give their CRS with "
+                "--source-crs");
+        }
+        plane_.crs = options_.heights.is_to_ellipsoid ? plane_.crs.with_ellipsoidal_heights()
+                     : vertical.empty()               ? plane_.crs.horizontal()
+                                                      : plane_.crs.with_vertical(vertical);
+        return;
+    }
+    for (const Noted& noted : noted_) {
+        if (wanted.heights() == Heights::Unknown && noted.is_noted) {
+            wanted = noted.crs;
+        }
+    }
+    const bool is_known = plane_.crs.is_known() && wanted.heights() != Heights::Unknown;
+    if (is_known && !plane_.crs.has_same_heights(wanted)) {
+        plane_.crs = plane_.crs.with_heights_of(wanted);
+    }
+}
+
+void Placement::choose_z_unit() {
+    const Crs& asked = options_.crs.heights() != Crs::Heights::Unknown ? options_.crs : options_.plane.crs;
+    z_unit_ = options_.z_unit;
+    if (z_unit_.empty()) {
+        z_unit_ = options_.heights.unit;
     }
     if (z_unit_.empty()) {
-        z_unit_ = unit;
-    } else if (z_unit_ != unit && !are_z_units_mixed_) {
-        are_z_units_mixed_ = true;
-        warnings_.push_back(label(sources_[s]) + ": elevations are in " + unit + ", those before in " +
-                            z_unit_ + "; they are not converted");
+        z_unit_ = asked.z_unit();
+    }
+    for (const Noted& noted : noted_) {
+        if (z_unit_.empty() && noted.is_noted) {
+            z_unit_ = noted.z_unit;
+        }
+    }
+    if (z_unit_.empty()) {
+        z_unit_ = plane_.crs.z_unit();
+    }
+    const std::string of_plane = plane_.crs.z_unit();
+    if (!of_plane.empty() && !z_unit_.empty() && of_plane != z_unit_) {
+        // What is written must not claim another unit than it has.
+        plane_.crs = plane_.crs.horizontal();
     }
 }
+
+/// Sources without a system are in the one asked for, or in the plane.
+void Placement::place_guessed_sources() {
+    std::vector<std::string> files;
+    for (std::size_t s = 0; s < noted_.size(); ++s) {
+        if (noted_[s].is_noted && noted_[s].is_guessed) {
+            files.push_back(sources_[s].path);
+        }
+    }
+    const Crs& taken = options_.crs.is_geographic() ? options_.crs : plane_.crs;
+    if (files.empty() || !taken.is_known()) {
+        return;
+    }
+    warnings_.push_back((files.size() == 1 ? "file " : "files ") + quoted_list(files) +
+                        (files.size() == 1 ? ": has" : ": have") + " no CRS; taken to be in " + taken.name());
+}
+
+std::vector<std::size_t> Placement::place(std::size_t s, std::span<Point3> points, const Progress& progress) {
+    const Noted& noted = noted_[s];
+    if (options_.heights.scale != 1) {
+        for_each_point(points, [&](Point3& point, std::size_t) { point.z *= options_.heights.scale; });
+    }
+    const bool is_plane_new = noted.crs.is_known() && !noted.crs.is_same_horizontally(plane_.crs);
+    const bool is_datum_new = geoid_ == nullptr && noted.crs.heights() != Crs::Heights::Unknown &&
+                              plane_.crs.heights() != Crs::Heights::Unknown &&
+                              !noted.crs.has_same_heights(plane_.crs);
+    std::vector<Point3> degrees;
+    if (geoid_ != nullptr) {
+        degrees = geographic_positions(noted, points);
+    }
+    std::vector<std::size_t> failed;
+    if (is_datum_new) {
+        convert_units(points, noted.z_unit, noted.crs.z_unit());
+        failed = transform(noted, points, true, progress);
+        convert_units(points, plane_.crs.z_unit(), z_unit_);
+    } else {
+        if (is_plane_new) {
+            failed = transform(noted, points, false, progress);
+        }
+        convert_units(points, noted.z_unit, z_unit_);
+    }
+    if (geoid_ != nullptr) {
+        shift_to_wanted_heights(s, degrees, points, progress);
+    }
+    return failed;
+}
+
+/// Positions in degrees, for the geoid.
+std::vector<Point3> Placement::geographic_positions(const Noted& noted,
+                                                    std::span<const Point3> points) const {
+    const Crs& crs = noted.crs.is_known() ? noted.crs : plane_.crs;
+    const Crs geographic = crs.geographic();
+    if (!geographic.is_known()) {
+        throw InputError("--geoid needs to know where on the earth the samples are, and " + crs.name() +
+                         " does not tell; give their CRS with crs=");
+    }
+    std::vector<Point3> at(points.begin(), points.end());
+    if (crs.is_plane()) {
+        static_cast<void>(CoordinateTransform(crs.horizontal(), geographic).forward(at));
+    }
+    return in_degrees(at, geographic);
+}
+
+void Placement::convert_units(std::span<Point3> points, const std::string& from, const std::string& to) {
+    const double factor = unit_factor(from, to);
+    if (factor != 1) {
+        for_each_point(points, [&](Point3& point, std::size_t) { point.z *= factor; });
+    }
+}
+
+std::vector<std::size_t> Placement::transform(const Noted& noted, std::span<Point3> points,
+                                              bool has_elevations, const Progress& progress) {
+    const bool is_same_way = way_ && from_.is_same(noted.crs) && has_way_elevations_ == has_elevations &&
+                             way_epoch_ == noted.epoch;
+    if (!is_same_way) {
+        way_.emplace(noted.crs, plane_.crs, TransformOptions{has_elevations, plane_.extent, noted.epoch});
+        has_way_elevations_ = has_elevations;
+        way_epoch_ = noted.epoch;
+        if (!way_->warning().empty()) {
+            warnings_.push_back(way_->warning());
+        }
+    }
+    from_ = noted.crs;
+    const bool is_in_place = noted.crs.is_same_horizontally(plane_.crs);
+    const std::vector<Point3> before =
+        is_in_place ? std::vector<Point3>(points.begin(), points.end()) : std::vector<Point3>();
+    const std::vector<std::size_t> failed = way_->forward(points, progress);
+    // On a decimal lattice, with room below any meaningful precision, rows stay rows, predicates are quick,
+    // and what two mathematical libraries differ by is rounded away.
+    constexpr double kStepsPerUnit = 1e6;
+    for_each_point(points, [&](Point3& point, std::size_t i) {
+        if (is_in_place) {
+            point.x = before[i].x;
+            point.y = before[i].y;
+        } else if (!std::binary_search(failed.begin(), failed.end(), i)) {
+            point.x = std::nearbyint(point.x * kStepsPerUnit) / kStepsPerUnit;
+            point.y = std::nearbyint(point.y * kStepsPerUnit) / kStepsPerUnit;
+        }
+    });
+    return failed;
+}
+
+void Placement::shift_to_wanted_heights(std::size_t s, std::span<const Point3> at, std::span<Point3> points,
+                                        const Progress& progress) {
+    using Heights = Crs::Heights;
+    const Heights wanted = options_.heights.is_to_ellipsoid ? Heights::Ellipsoidal : Heights::Gravity;
+    const Heights own = noted_[s].crs.heights();
+    if (own == wanted) {
+        return;
+    }
+    if (own == Heights::Unknown && !is_geoid_guess_told_) {
+        is_geoid_guess_told_ = true;
+        warnings_.push_back(label(sources_[s]) +
+                            ": does not say what elevations are measured from; taken to be " +
+                            (wanted == Heights::Gravity ? "above the ellipsoid" : "above the geoid") +
+                            " and shifted by --geoid");
+    }
+    ExtentGatherer extent;
+    extent.add(at);
+    geoid_->prepare(extent.extent());
+    const std::optional<LengthUnit> unit = find_length_unit(z_unit_.empty() ? plane_.crs.unit() : z_unit_);
+    shift_by_geoid(*geoid_, at, points, wanted == Heights::Gravity ? -1 : 1, unit ? unit->metres : 1,
+                   progress);
+}
+
+std::string Placement::failure(const Point3& point) const {
+    std::string text = number(point.x) + ", " + number(point.y);
+    text.insert(text.begin(), '(');
+    return text + ") cannot be transformed from " + from_.name() + " to " + plane_.crs.name();
+}
+
+std::vector<std::string> Placement::take_warnings() { return std::exchange(warnings_, {}); }
 
 }  // namespace tinwright::io

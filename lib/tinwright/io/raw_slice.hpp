@@ -49,9 +49,10 @@ struct RawSlice {
     std::string layer;
     SampleIds ids;
     BadSamples bad;
-    Crs crs;                  ///< the file's own, may be unknown
-    bool is_lon_lat = false;  ///< columns are called longitude and latitude
-    std::string z_unit;       ///< where the file itself tells it
+    Crs crs;                      ///< the file's own, may be unknown
+    bool is_lon_lat = false;      ///< columns are called longitude and latitude
+    bool is_north_first = false;  ///< coordinates are northing or latitude first, and not yet put right
+    std::string z_unit;           ///< where the file itself tells it
     std::vector<std::string> warnings;
 };
 

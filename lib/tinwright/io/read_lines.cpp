@@ -12,6 +12,7 @@
 
 #include "tinwright/geometry/decimal.hpp"
 #include "tinwright/geometry/error.hpp"
+#include "tinwright/io/axis_order.hpp"
 #include "tinwright/io/gdal_session.hpp"
 #include "tinwright/io/line_features.hpp"
 #include "tinwright/io/open_source.hpp"
@@ -34,26 +35,47 @@ class LineReader {
         : roles_(sources),
           options_(options),
           sources_(plain(sources)),
-          plane_(sources_, options.crs, options.source_crs) {
-        plane_.expect_z_unit(options.z_unit);
-    }
+          placement_(sources_, {options.crs, options.source_crs, options.plane, options.heights,
+                                options.epoch, options.is_plane_decided, options.z_unit}) {}
 
     Lines read() {
         const auto start = std::chrono::steady_clock::now();
         for (std::size_t s = 0; s < sources_.size(); ++s) {
             read_source(s);
         }
-        out_.crs = plane_.crs();
-        out_.plane.crs = out_.crs;
-        out_.z_unit = plane_.z_unit();
-        if (const std::string warning = plane_.missing_warning(); !warning.empty()) {
-            out_.warnings.push_back(warning);
+        // Where all of them are decides what plane they are brought to, so that is done with all at hand.
+        for (std::size_t s = 0; s < sources_.size(); ++s) {
+            note(s);
         }
+        placement_.choose_plane();
+        for (std::size_t s = 0; s < sources_.size(); ++s) {
+            LineRead& read = reads_[s];
+            place(s);
+            close_rings(read.plan, read.raw);
+            require_lines(read.plan, read.raw);  // all may be outside the transformation's area, or open
+            keep(s);
+        }
+        const std::vector<std::string> warnings = placement_.take_warnings();
+        out_.warnings.insert(out_.warnings.end(), warnings.begin(), warnings.end());
+        out_.plane = placement_.plane();
+        out_.crs = out_.plane.crs;
+        out_.z_unit = placement_.z_unit();
         out_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         return std::move(out_);
     }
 
   private:
+    /// What was read of a source.
+    struct LineRead {
+        LinePlan plan;
+        std::string layer;
+        CoordinateSystem own;
+        RawLines raw;
+        std::vector<Point3> points;        // of all lines
+        std::vector<std::size_t> line_of;  // one a point
+        std::vector<bool> is_draped;       // one a point
+    };
+
     static std::vector<Source> plain(std::span<const LineSource> sources) {
         std::vector<Source> list;
         list.reserve(sources.size());
@@ -74,10 +96,15 @@ class LineReader {
         raw.polygons = polygons_;
         read_features(s, plan, layer, raw);
         require_lines(plan, raw);
-        place(s, plan, Crs::from_gdal(layer.layer().GetSpatialRef()), raw);
-        close_rings(plan, raw);
-        require_lines(plan, raw);  // all may be outside the transformation's area, or open
-        keep(s, plan, layer, raw);
+        polygons_ = raw.polygons;
+        const OGRSpatialReference* const system = layer.layer().GetSpatialRef();
+        reads_.push_back({plan,
+                          layer.layer().GetName(),
+                          {Crs::from_gdal(system), false, is_north_first(system), {}},
+                          std::move(raw),
+                          {},
+                          {},
+                          {}});
     }
 
     void report(std::size_t s, double fraction) const {
@@ -118,39 +145,44 @@ class LineReader {
                                            : ": no lines"));
     }
 
-    /// Brings the lines into the working system; features that cannot be are bad.
-    void place(std::size_t s, const LinePlan& plan, const Crs& own, RawLines& raw) {
-        std::vector<Point3> points;
-        std::vector<std::size_t> line_of;
-        for (std::size_t i = 0; i < raw.lines.size(); ++i) {
-            const std::vector<Point3>& line = raw.lines[i].points;
-            points.insert(points.end(), line.begin(), line.end());
-            line_of.insert(line_of.end(), line.size(), i);
+    /// Takes the points of a source together, and says where they are.
+    void note(std::size_t s) {
+        LineRead& read = reads_[s];
+        for (std::size_t i = 0; i < read.raw.lines.size(); ++i) {
+            const std::vector<Point3>& line = read.raw.lines[i].points;
+            read.points.insert(read.points.end(), line.begin(), line.end());
+            read.line_of.insert(read.line_of.end(), line.size(), i);
         }
-        std::vector<bool> is_draped(points.size());
-        for (std::size_t i = 0; i < points.size(); ++i) {
-            if (std::isnan(points[i].z)) {
-                is_draped[i] = true;
-                points[i].z = 0;  // a transformation of a NaN fails
+        read.is_draped.resize(read.points.size());
+        for (std::size_t i = 0; i < read.points.size(); ++i) {
+            if (std::isnan(read.points[i].z)) {
+                read.is_draped[i] = true;
+                read.points[i].z = 0;  // a transformation of a NaN fails
             }
         }
-        const std::vector<std::size_t> failed = plane_.place(s, {own, false, {}}, points);
-        const std::vector<std::string> warnings = plane_.take_warnings();
-        out_.warnings.insert(out_.warnings.end(), warnings.begin(), warnings.end());
+        placement_.note(s, read.own, read.points);
+    }
+
+    /// Brings the lines into the plane; features that cannot be are bad.
+    void place(std::size_t s) {
+        LineRead& read = reads_[s];
+        RawLines& raw = read.raw;
+        std::vector<Point3> points = std::move(read.points);
+        const std::vector<std::size_t> failed = placement_.place(s, points);
         std::size_t next = 0;
         for (Breakline& line : raw.lines) {
             for (Point3& point : line.points) {
                 point = points[next];
-                point.z = is_draped[next] ? kDraped : point.z;
+                point.z = read.is_draped[next] ? kDraped : point.z;
                 ++next;
             }
         }
         std::vector<std::pair<std::size_t, std::string>> bad;
         bad.reserve(failed.size());
         for (const std::size_t i : failed) {
-            bad.emplace_back(line_of[i], plane_.failure(points[i]));
+            bad.emplace_back(read.line_of[i], placement_.failure(points[i]));
         }
-        drop_features(plan, raw, bad);
+        drop_features(read.plan, raw, bad);
     }
 
     /// Closes rings within the snapping distance; features with a wider gap are bad.
@@ -240,39 +272,41 @@ class LineReader {
         }
     }
 
-    void keep(std::size_t s, const LinePlan& plan, const VectorLayer& layer, RawLines& raw) {
+    void keep(std::size_t s) {
+        LineRead& read = reads_[s];
+        RawLines& raw = read.raw;
         note_missing_z(raw);
         out_.conflicts.insert(out_.conflicts.end(), open_rings_.begin(), open_rings_.end());
         open_rings_.clear();
         LineSlice slice;
-        slice.role = plan.role;
+        slice.role = read.plan.role;
         slice.source = s;
         slice.file = sources_[s].path;
-        slice.layer = layer.layer().GetName();
+        slice.layer = read.layer;
         slice.first = out_.lines.size();
         slice.count = raw.lines.size();
         slice.skipped = raw.bad.count();
         out_.slices.push_back(std::move(slice));
-        polygons_ = raw.polygons;
         std::move(raw.lines.begin(), raw.lines.end(), std::back_inserter(out_.lines));
         out_.parts.insert(out_.parts.end(), raw.parts.begin(), raw.parts.end());
         for (FeatureFault& fault : raw.faults) {
             fault.source = s;
-            fault.layer = layer.layer().GetName();
+            fault.layer = read.layer;
             out_.faults.push_back(std::move(fault));
         }
         if (raw.bad.count() > 0) {
             out_.warnings.push_back(label(sources_[s]) + ": " + std::to_string(raw.bad.count()) +
                                     " unusable feature" + (raw.bad.count() == 1 ? "" : "s") + " among the " +
-                                    name_of(plan.role) + " skipped, the first is " + raw.bad.first());
+                                    name_of(read.plan.role) + " skipped, the first is " + raw.bad.first());
         }
     }
 
     std::span<const LineSource> roles_;
     const ReadLinesOptions& options_;
     std::vector<Source> sources_;
-    Placement plane_;
+    Placement placement_;
     Lines out_;
+    std::vector<LineRead> reads_;  // one a source
     std::uint32_t polygons_ = 0;
     std::vector<LineConflict> open_rings_;  // of the slice at hand
 };

@@ -26,9 +26,10 @@ struct LineSource {
 
 struct ReadLinesOptions {
     bool skip_bad = false;  ///< count unusable features and go on, instead of failing at the first
-    Crs crs;                ///< the working system, that of the samples; unknown: the one the lines share
-    Crs source_crs;         ///< --source-crs: for sources that carry none; a source's crs= comes first
-    PlaneRequest plane;     ///< where geographic lines are worked on when `crs` is unknown
+    Crs crs;                ///< as of `ReadOptions`; or with samples, the plane that they were brought to
+    bool is_plane_decided = false;  ///< `crs` is that of samples read before
+    Crs source_crs;      ///< --source-crs: for sources that carry none; a source's crs= comes first
+    PlaneRequest plane;  ///< where geographic lines are worked on when `crs` is unknown
     HeightRequest heights;
     std::optional<double> epoch;  ///< --epoch
     std::string z_unit;           ///< of the samples; empty when unknown

@@ -6,6 +6,7 @@
 
 #include <gdal_priv.h>
 
+#include "tinwright/geometry/threads.hpp"
 #include "tinwright/io/gdal_session.hpp"
 #include "tinwright/io/open_source.hpp"
 #include "tinwright/io/placement.hpp"
@@ -48,19 +49,42 @@ std::string describe_id(const SampleSlice& slice, std::int64_t id) {
 class SampleReader {
   public:
     SampleReader(std::span<const Source> sources, const ReadOptions& options)
-        : sources_(sources), options_(options), plane_(sources, options.crs, options.source_crs) {}
+        : sources_(sources),
+          options_(options),
+          placement_(
+              sources,
+              {options.crs, options.source_crs, options.plane, options.heights, options.epoch, false, {}}) {}
 
     Samples read() {
         const auto start = std::chrono::steady_clock::now();
         for (std::size_t s = 0; s < sources_.size(); ++s) {
             read_source(s);
         }
+        // Where all of them are decides what plane they are brought to, so that is done with all at hand.
+        run_with_threads(options_.threads, [&] {
+            for (std::size_t s = 0; s < sources_.size(); ++s) {
+                note(s);
+            }
+            placement_.choose_plane();
+            for (std::size_t s = 0; s < sources_.size(); ++s) {
+                place(s);
+            }
+        });
+        drop_failed();
         finish();
         out_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         return std::move(out_);
     }
 
   private:
+    /// What was read of a source: points [first, first + count), of which some cannot be placed.
+    struct Read {
+        RawSlice raw;
+        std::size_t first = 0;
+        std::size_t count = 0;
+        std::vector<std::size_t> failed;
+    };
+
     void read_source(std::size_t s) {
         const Source& source = sources_[s];
         if (source.as == Source::Kind::Tin) {
@@ -83,10 +107,8 @@ class SampleReader {
                        : opened.kind == OpenedSource::Kind::Vector
                            ? read_vector(*opened.dataset, request, out_.points)
                            : read_raster(*opened.dataset, request, out_.points);
-        refuse_nothing(source, raw, first);
-        place(s, raw, first);
-        refuse_nothing(source, raw, first);  // of what was read, all may be outside the transformation's area
-        keep(s, raw, first);
+        refuse_nothing(source, raw, out_.points.size() - first);
+        reads_.push_back({std::move(raw), first, out_.points.size() - first, {}});
     }
 
     /// Reading and transforming share a source's part of the whole.
@@ -100,8 +122,8 @@ class SampleReader {
         };
     }
 
-    void refuse_nothing(const Source& source, const RawSlice& raw, std::size_t first) const {
-        if (out_.points.size() > first) {
+    static void refuse_nothing(const Source& source, const RawSlice& raw, std::size_t count) {
+        if (count > 0) {
             return;
         }
         const std::string where =
@@ -116,48 +138,68 @@ class SampleReader {
                          (raw.kind == SampleSlice::Kind::Raster ? ": no valid cells" : ": no samples"));
     }
 
-    /// Brings a slice's points into the working system; those that cannot be are bad.
-    void place(std::size_t s, RawSlice& raw, std::size_t first) {
-        const std::span<Point3> points = std::span(out_.points).subspan(first);
-        const Progress read_progress = progress_of(s);
-        const Progress go_on = [&](double) { return !read_progress || read_progress(1.0); };
-        const std::vector<std::size_t> failed =
-            plane_.place(s, {raw.crs, raw.is_lon_lat, raw.z_unit}, points, go_on);
-        add_warnings(plane_.take_warnings());
-        if (failed.empty()) {
-            return;
-        }
-        const std::vector<std::int64_t> ids = raw.ids.all();
-        const SampleSlice slice = slice_of(s, raw, first);
-        for (const std::size_t i : failed) {
-            raw.bad.add(describe_id(slice, ids[i]) + ": " + plane_.failure(points[i]));
-        }
-        std::size_t kept = first;
-        std::size_t next = 0;
-        for (std::size_t i = 0; i < points.size(); ++i) {
-            if (next < failed.size() && failed[next] == i) {
-                ++next;
-            } else {
-                out_.points[kept++] = points[i];
-            }
-        }
-        out_.points.resize(kept);
-        raw.ids.erase(failed);
+    [[nodiscard]] std::span<Point3> points_of(std::size_t s) {
+        return std::span(out_.points).subspan(reads_[s].first, reads_[s].count);
     }
 
-    [[nodiscard]] SampleSlice slice_of(std::size_t s, const RawSlice& raw, std::size_t first) const {
+    void note(std::size_t s) {
+        const RawSlice& raw = reads_[s].raw;
+        placement_.note(s, {raw.crs, raw.is_lon_lat, raw.is_north_first, raw.z_unit}, points_of(s));
+    }
+
+    /// Brings a slice's points into the plane; those that cannot be are bad.
+    void place(std::size_t s) {
+        Read& read = reads_[s];
+        const std::span<Point3> points = points_of(s);
+        const Progress read_progress = progress_of(sources_.size() - 1);
+        const Progress go_on = [&](double) { return !read_progress || read_progress(1.0); };
+        read.failed = placement_.place(s, points, go_on);
+        if (read.failed.empty()) {
+            return;
+        }
+        const std::vector<std::int64_t> ids = read.raw.ids.all();
+        const SampleSlice slice = slice_of(s);
+        for (const std::size_t i : read.failed) {
+            read.raw.bad.add(describe_id(slice, ids[i]) + ": " + placement_.failure(points[i]));
+        }
+        read.raw.ids.erase(read.failed);
+        refuse_nothing(sources_[s], read.raw, read.count - read.failed.size());
+    }
+
+    /// Leaves out the points that could not be placed.
+    void drop_failed() {
+        std::size_t kept = 0;
+        for (Read& read : reads_) {
+            const std::size_t first = kept;
+            auto next = read.failed.begin();
+            for (std::size_t i = 0; i < read.count; ++i) {
+                if (next != read.failed.end() && *next == i) {
+                    ++next;
+                } else {
+                    out_.points[kept++] = out_.points[read.first + i];
+                }
+            }
+            read.first = first;
+            read.count = kept - first;
+        }
+        out_.points.resize(kept);
+    }
+
+    [[nodiscard]] SampleSlice slice_of(std::size_t s) const {
+        const RawSlice& raw = reads_[s].raw;
         SampleSlice slice;
         slice.kind = raw.kind;
         slice.source = s;
         slice.file = sources_[s].path;
         slice.layer = raw.layer;
-        slice.first = first;
+        slice.first = reads_[s].first;
+        slice.count = reads_[s].count;
         return slice;
     }
 
-    void keep(std::size_t s, const RawSlice& raw, std::size_t first) {
-        SampleSlice slice = slice_of(s, raw, first);
-        slice.count = out_.points.size() - first;
+    void keep(std::size_t s) {
+        const RawSlice& raw = reads_[s].raw;
+        SampleSlice slice = slice_of(s);
         slice.skipped = raw.bad.count();
         slice.first_id = raw.ids.front();
         if (!raw.ids.is_one_run()) {
@@ -173,12 +215,13 @@ class SampleReader {
     }
 
     void finish() {
-        out_.crs = plane_.crs();
-        out_.plane.crs = out_.crs;
-        out_.z_unit = plane_.z_unit();
-        if (const std::string warning = plane_.missing_warning(); !warning.empty()) {
-            out_.warnings.push_back(warning);
+        for (std::size_t s = 0; s < sources_.size(); ++s) {
+            keep(s);
         }
+        add_warnings(placement_.take_warnings());
+        out_.plane = placement_.plane();
+        out_.crs = out_.plane.crs;
+        out_.z_unit = placement_.z_unit();
     }
 
     void add_warnings(const std::vector<std::string>& warnings) {
@@ -187,8 +230,9 @@ class SampleReader {
 
     std::span<const Source> sources_;
     const ReadOptions& options_;
-    Placement plane_;
+    Placement placement_;
     Samples out_;
+    std::vector<Read> reads_;  // one a source
 };
 
 }  // namespace

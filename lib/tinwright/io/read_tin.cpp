@@ -13,6 +13,7 @@
 #include "tinwright/geometry/error.hpp"
 #include "tinwright/geometry/lattice.hpp"
 #include "tinwright/geometry/predicates.hpp"
+#include "tinwright/io/axis_order.hpp"
 #include "tinwright/io/gdal_session.hpp"
 #include "tinwright/io/tin_layers.hpp"
 #include "tinwright/io/tin_source.hpp"
@@ -70,6 +71,7 @@ class TinFileReader {
         file_.layer = faces_.GetName();
         file_.metadata = source_.metadata(faces_);
         file_.crs = source_.crs(faces_, file_.metadata);
+        file_.is_north_first = is_north_first(faces_.GetSpatialRef());
         read_faces();
         if (OGRLayer* const vertices = source_.find_companion(faces_, "vertices")) {
             read_vertices(*vertices);

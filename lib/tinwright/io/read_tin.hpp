@@ -9,7 +9,9 @@
 #include "tinwright/geometry/point.hpp"
 #include "tinwright/geometry/progress.hpp"
 #include "tinwright/io/crs.hpp"
+#include "tinwright/io/read_samples.hpp"
 #include "tinwright/io/source.hpp"
+#include "tinwright/io/working_plane.hpp"
 #include "tinwright/io/write_tin.hpp"
 #include "tinwright/mesh/tin.hpp"
 
@@ -41,6 +43,8 @@ struct TinFile {
     Crs crs;
     TinMetadata metadata;
     VertexOrigins origins;
+    bool is_north_first = false;        ///< vertices are northing or latitude first
+    std::vector<std::string> warnings;  ///< one line each
 };
 
 /// Whether the source is a TIN: has a `faces` layer with our metadata, a TIN geometry, or only closed 3-D
@@ -53,6 +57,12 @@ bool is_tin(const Source& source);
 /// naming the feature that is not a triangle or has no z; UsageError for a filter that cannot be; Cancelled.
 /// O(n).
 TinFile read_tin_file(const Source& source, const Progress& progress = {});
+
+/// Makes sure that the vertices are in a plane: those in degrees are brought to the one that the file was
+/// made in (metadata key TINWRIGHT_WORKING_CRS), to a projected `options.crs`, or to one chosen for them;
+/// `file.crs` is then that plane's. Vertices in a plane stay where they are, those without a CRS are taken to
+/// be in `options.source_crs`, else in `options.crs`. Throws InputError.
+WorkingPlane place_tin(TinFile& file, const Source& source, const ReadOptions& options);
 
 /// Puts a file's faces on a lattice as a TIN, vertices in curve order, domain and constrained edges kept.
 /// `sample[v]` is the index in `file.vertices` that vertex v has there, or kNoSample for a Steiner vertex,

@@ -4,6 +4,7 @@
 
 #include <ogrsf_frmts.h>
 
+#include "tinwright/io/axis_order.hpp"
 #include "tinwright/io/column_names.hpp"
 #include "tinwright/io/gdal_session.hpp"
 #include "tinwright/io/vector_arrow.hpp"
@@ -129,6 +130,7 @@ RawSlice read_vector(GDALDataset& dataset, const SliceRequest& request, std::vec
     slice.layer = plan.layer->GetName();
     slice.is_lon_lat = planner.is_lon_lat();
     slice.crs = Crs::from_gdal(plan.layer->GetSpatialRef());
+    slice.is_north_first = is_north_first(plan.layer->GetSpatialRef()) && plan.x_field < 0;
     if (!read_arrow(plan, request, points, slice)) {
         if (!plan.has_filter) {
             ignore_other_fields(*plan.layer, {plan.x_field, plan.y_field, plan.z_field});

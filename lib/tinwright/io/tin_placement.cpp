@@ -1,0 +1,53 @@
+#include <algorithm>
+
+#include "tinwright/geometry/error.hpp"
+#include "tinwright/io/gdal_session.hpp"
+#include "tinwright/io/placement.hpp"
+#include "tinwright/io/read_tin.hpp"
+
+namespace tinwright::io {
+namespace {
+
+/// The plane that the file's vertices were made in, where it says so.
+Crs recorded_plane(const TinMetadata& metadata) {
+    for (const auto& [key, value] : metadata) {
+        if (key == "TINWRIGHT_WORKING_CRS") {
+            return Crs::parse(value);
+        }
+    }
+    return {};
+}
+
+}  // namespace
+
+WorkingPlane place_tin(TinFile& file, const Source& source, const ReadOptions& options) {
+    PlacementOptions placing{options.crs, options.source_crs, options.plane, {}, options.epoch, false, {}};
+    if (!file.crs.is_known()) {
+        file.crs = options.source_crs.is_known() ? options.source_crs : options.crs;
+    }
+    if (file.crs.is_geographic() && placing.plane.rule == PlaneRequest::Rule::Auto &&
+        !options.crs.is_plane()) {
+        if (const Crs plane = recorded_plane(file.metadata); plane.is_known()) {
+            placing.plane.rule = PlaneRequest::Rule::Given;
+            placing.plane.crs = plane;
+        }
+    }
+    if (!file.crs.is_geographic()) {
+        placing.crs = file.crs;  // its faces are as they are
+        placing.plane.rule = PlaneRequest::Rule::Auto;
+    }
+    Placement placement({&source, 1}, placing);
+    placement.note(0, {file.crs, false, file.is_north_first, {}}, file.vertices);
+    placement.choose_plane();
+    const std::vector<std::size_t> failed = placement.place(0, file.vertices);
+    if (!failed.empty()) {
+        throw InputError("file " + quoted(source.path) + ": vertex at " +
+                         placement.failure(file.vertices[failed.front()]));
+    }
+    const std::vector<std::string> warnings = placement.take_warnings();
+    file.warnings.insert(file.warnings.end(), warnings.begin(), warnings.end());
+    file.crs = placement.plane().crs;
+    return placement.plane();
+}
+
+}  // namespace tinwright::io
