@@ -71,6 +71,23 @@ std::vector<RiverEdge> find_river_edges(const Tin& tin, const std::vector<bool>&
     return edges;
 }
 
+/// The upper and the lower end of each edge, in the raster's system.
+std::vector<Point2> find_ends(const Tin& tin, const std::vector<RiverEdge>& edges,
+                              const RasterPlacing& placed) {
+    std::vector<Point2> ends;
+    ends.reserve(2 * edges.size());
+    for (const RiverEdge& edge : edges) {
+        for (const VertexId v : {edge.upper, edge.lower}) {
+            const Point3 position = tin.position(v);
+            ends.push_back({position.x, position.y});
+        }
+    }
+    if (placed.to_raster) {
+        placed.to_raster(ends);
+    }
+    return ends;
+}
+
 /// That a river passes a cell.
 struct RiverPass {
     std::int64_t cell = 0;  // row times columns plus column
@@ -78,19 +95,44 @@ struct RiverPass {
     double z = 0;  // the river's lowest in it
 };
 
+/// `visit_cells` for a segment in a raster whose x is periodic: of the ways to the other end the short one,
+/// and wherever that is in the raster.
+void visit_periodic(Point2 a, Point2 b, const GridGeometry& grid, double period,
+                    const std::function<void(const CellPassage&)>& visit) {
+    if (!(period > 0)) {
+        visit_cells(a, b, grid, visit);
+        return;
+    }
+    const double dx = std::remainder(b.x - a.x, period);
+    const double width = static_cast<double>(grid.columns) * grid.cell_width;
+    for (double turn = -std::floor((a.x - grid.x_min) / period) - 1;; ++turn) {
+        const double start = a.x + turn * period;
+        if (std::min(start, start + dx) > grid.x_min + width) {
+            return;
+        }
+        visit_cells({start, a.y}, {start + dx, b.y}, grid, visit);
+    }
+}
+
 /// The passes of all edges, one edge after the other, downstream.
 std::vector<RiverPass> find_passes(const Tin& tin, const std::vector<RiverEdge>& edges,
-                                   const GridGeometry& grid) {
+                                   const GridGeometry& grid, const RasterPlacing& placed) {
+    const std::vector<Point2> ends = find_ends(tin, edges, placed);
     std::vector<RiverPass> passes;
     passes.reserve(2 * edges.size());
     for (std::uint32_t e = 0; e < edges.size(); ++e) {
-        const Point3 upper = tin.position(edges[e].upper);
-        const Point3 lower = tin.position(edges[e].lower);
+        const Point2 upper = ends[2 * std::size_t{e}];
+        const Point2 lower = ends[2 * std::size_t{e} + 1];
+        if (!std::isfinite(upper.x + upper.y + lower.x + lower.y)) {
+            continue;
+        }
+        const double upper_z = tin.z[edges[e].upper.value];
+        const double lower_z = tin.z[edges[e].lower.value];
         const auto elevation_at = [&](double part) {
-            const double z = upper.z + part * (lower.z - upper.z);
-            return part == 1 ? lower.z : std::clamp(z, lower.z, upper.z);
+            const double z = upper_z + part * (lower_z - upper_z);
+            return part == 1 ? lower_z : std::clamp(z, lower_z, upper_z);
         };
-        visit_cells({upper.x, upper.y}, {lower.x, lower.y}, grid, [&](const CellPassage& passage) {
+        visit_periodic(upper, lower, grid, placed.period, [&](const CellPassage& passage) {
             // What is only touched in a point, a corner say, the river does not pass.
             if (passage.begin < passage.end) {
                 passes.push_back({passage.row * grid.columns + passage.column, e, elevation_at(passage.end)});
@@ -159,6 +201,18 @@ PassedCells number_cells(const std::vector<RiverPass>& passes) {
         passed.of_pass[pass] = static_cast<std::uint32_t>(passed.cells.size() - 1);
     }
     return passed;
+}
+
+/// Where the centre of a cell is in the TIN's plane; NaN: nowhere.
+Point2 place_of_cell(std::int64_t cell, const GridGeometry& grid, const RasterPlacing& placed) {
+    const std::int64_t row = cell / grid.columns;
+    const std::int64_t column = cell % grid.columns;
+    if (!placed.find_places) {
+        return grid.centre(column, row);
+    }
+    CellPlace place;
+    placed.find_places(row, column, {&place, 1});
+    return place.position;
 }
 
 /// Cells that rivers pass, and the vertices between their edges, joined in the direction of flow. A place is
@@ -299,15 +353,15 @@ void visit_cells(Point2 a, Point2 b, const GridGeometry& grid,
 
 std::vector<CellElevation> find_river_cells(const Tin& tin, const std::vector<bool>& is_river_line,
                                             const std::vector<bool>& is_water_face, const GridGeometry& grid,
-                                            const std::function<Point2(Point2)>& /*to_raster*/) {
+                                            const RasterPlacing& placed) {
     const std::vector<RiverEdge> edges = find_river_edges(tin, is_river_line);
-    const std::vector<RiverPass> passes = find_passes(tin, edges, grid);
+    const std::vector<RiverPass> passes = find_passes(tin, edges, grid, placed);
     const PassedCells passed = number_cells(passes);
     std::vector<bool> is_water(passed.cells.size());
     if (const WaterFaces water(tin, is_water_face); !water.is_empty()) {
         for (std::size_t i = 0; i < is_water.size(); ++i) {
             const std::int64_t cell = passed.cells[i];
-            is_water[i] = water.hold(grid.centre(cell % grid.columns, cell / grid.columns));
+            is_water[i] = water.hold(place_of_cell(cell, grid, placed));
         }
     }
     FlowPlaces places(tin, edges, passes, passed, is_water);

@@ -31,6 +31,16 @@ struct CellPassage {
 void visit_cells(Point2 a, Point2 b, const GridGeometry& grid,
                  const std::function<void(const CellPassage&)>& visit);
 
+/// Where a raster is that does not lie in the TIN's plane; as it is made: it does.
+struct RasterPlacing {
+    /// Brings positions of the TIN's plane into the raster's system; NaN for those that are not in it.
+    std::function<void(std::span<Point2> positions)> to_raster{};
+    /// The way back, for cells, as the raster is filled by.
+    FindCellPlaces find_places{};
+    /// What x is the same place after: a turn of longitude; 0: nothing.
+    double period = 0;
+};
+
 /// The elevations of cells that rivers pass for more than a point, by cell: the lowest that a river has in
 /// the cell or in any cell upstream of it. So cells never rise along any way downstream, be they rounded to a
 /// narrower type or not; a bend that leaves a cell and comes back makes all cells between equal; and none is
@@ -39,12 +49,12 @@ void visit_cells(Point2 a, Point2 b, const GridGeometry& grid,
 /// by the numbers of `tin.traces`; water runs from their higher to their lower end, and along level ones
 /// either way, so that all cells of a level reach are equal. Cells whose centre is on
 /// water (`is_water_face`, by face; may be empty) are left as they are. Cells whose centre is off the terrain
-/// are listed too. `to_raster`: brings a position of the TIN's plane into the raster's system; empty: they
-/// are the same. Edges are straight in either. O(c log c), c: the cells passed and edges, and the water's
-/// faces.
+/// are listed too. In a raster that is `placed` elsewhere edges are straight as well, between vertices
+/// brought there, the short way where x is periodic; edges to vertices that cannot be are left out. O(c log
+/// c), c: the cells passed and edges, and the water's faces.
 std::vector<CellElevation> find_river_cells(const Tin& tin, const std::vector<bool>& is_river_line,
                                             const std::vector<bool>& is_water_face, const GridGeometry& grid,
-                                            const std::function<Point2(Point2)>& to_raster = {});
+                                            const RasterPlacing& placed = {});
 
 }  // namespace tinwright
 
