@@ -4,13 +4,17 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <cstdlib>
+#include <limits>
 #include <string_view>
+#include <vector>
 
 #include <cpl_conv.h>
 #include <ogr_spatialref.h>
 
 #include "tinwright/geometry/error.hpp"
 #include "tinwright/io/gdal_session.hpp"
+#include "tinwright/io/length_unit.hpp"
 
 namespace tinwright::io {
 namespace {
@@ -33,21 +37,24 @@ bool is_placeholder(const OGRSpatialReference& system) {
     return system.IsEmpty() || (system.IsLocal() != 0 && nameless);
 }
 
-/// One spelling a unit, whichever driver or authority wrote it.
-std::string unit_name(const std::string& unit, double metres) {
-    constexpr double kFoot = 0.3048;
-    constexpr double kSurveyFoot = 1200.0 / 3937.0;
-    if (metres == 1.0) {
-        return "metre";
-    }
-    if (std::abs(metres - kSurveyFoot) < 1e-10) {  // files write it with 8 to 16 digits; feet differ by 6e-7
-        return "US survey foot";
-    }
-    if (std::abs(metres - kFoot) < 1e-10) {
-        return "foot";
-    }
-    return unit;
+/// The unit by its one name, whichever driver or authority wrote it.
+std::string unit_name(double metres, const std::string& unit) {
+    const std::string plain = lower(unit);
+    const bool is_nameless = plain.empty() || plain == "unknown";  // GDAL then says one metre
+    const bool is_told = std::isfinite(metres) && metres > 0 && !(is_nameless && metres == 1);
+    return is_told ? length_unit_of(metres, unit).name : std::string();
 }
+
+/// "EPSG:3067" of a part of a system by its node, null for the whole; empty without.
+std::string code_of(const OGRSpatialReference& system, const char* part) {
+    const char* const authority = system.GetAuthorityName(part);
+    const char* const number = system.GetAuthorityCode(part);
+    return authority == nullptr || number == nullptr ? std::string()
+                                                     : std::string(authority) + ":" + std::string(number);
+}
+
+bool is_along_parallel(OGRAxisOrientation axis) { return axis == OAO_East || axis == OAO_West; }
+bool is_along_meridian(OGRAxisOrientation axis) { return axis == OAO_North || axis == OAO_South; }
 
 }  // namespace
 
@@ -83,17 +90,38 @@ bool Crs::is_geographic() const {
 
 bool Crs::is_geocentric() const { return system_ != nullptr && system_->IsGeocentric() != 0; }
 
-Crs::Heights Crs::heights() const { return Heights::Unknown; }
-Crs Crs::horizontal() const { return *this; }
-Crs Crs::geographic() const { return *this; }
-Crs Crs::with_heights_of(const Crs& /*other*/) const { return *this; }
-Crs Crs::with_vertical(const std::string& /*vertical_code*/) const { return *this; }
-Crs Crs::with_ellipsoidal_heights() const { return *this; }
-bool Crs::is_same_horizontally(const Crs& other) const { return is_same(other); }
-bool Crs::has_same_heights(const Crs& /*other*/) const { return false; }
-std::string Crs::axis_directions() const { return {}; }
-double Crs::metres_per_unit() const { return 1; }
-std::optional<double> Crs::epoch() const { return std::nullopt; }
+std::string Crs::axis_directions() const {
+    if (system_ == nullptr || system_->GetAxesCount() < 2) {
+        return {};
+    }
+    const GdalMessages messages;
+    std::array<OGRAxisOrientation, 2> axes{OAO_Other, OAO_Other};
+    const std::vector<int>& order = system_->GetDataAxisToSRSAxisMapping();
+    for (std::size_t i = 0; i < 2; ++i) {
+        const int axis = i < order.size() ? std::abs(order[i]) - 1 : static_cast<int>(i);
+        system_->GetAxis(nullptr, axis, &axes[i]);
+    }
+    // Axes of polar systems all point north or all south, each along a meridian of its own.
+    const bool is_cross = (is_along_parallel(axes[0]) && is_along_meridian(axes[1])) ||
+                          (is_along_meridian(axes[0]) && is_along_parallel(axes[1]));
+    if (!is_cross || (axes[0] == OAO_East && axes[1] == OAO_North)) {
+        return {};
+    }
+    return "x points " + lower(OSRAxisEnumToName(axes[0])) + " and y points " +
+           lower(OSRAxisEnumToName(axes[1]));
+}
+
+double Crs::metres_per_unit() const {
+    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+    const std::string name = is_plane() || is_geocentric() ? unit() : std::string();
+    const std::optional<LengthUnit> known = find_length_unit(name);
+    return known ? known->metres : kNone;
+}
+
+std::optional<double> Crs::epoch() const {
+    const double year = system_ == nullptr ? 0 : system_->GetCoordinateEpoch();
+    return year > 0 ? std::optional(year) : std::nullopt;
+}
 
 bool Crs::is_same(const Crs& other) const {
     if (system_ == nullptr || other.system_ == nullptr) {
@@ -121,10 +149,15 @@ std::string Crs::code() const {
     if (system_ == nullptr) {
         return {};
     }
-    const char* const authority = system_->GetAuthorityName(nullptr);
-    const char* const number = system_->GetAuthorityCode(nullptr);
-    return authority == nullptr || number == nullptr ? std::string()
-                                                     : std::string(authority) + ":" + std::string(number);
+    const std::string whole = code_of(*system_, nullptr);
+    if (!whole.empty() || system_->IsCompound() == 0) {
+        return whole;
+    }
+    const std::string_view prefix = "EPSG:";
+    const std::string x_y = horizontal().code();
+    const std::string z = code_of(*system_, "COMPD_CS|VERT_CS");
+    return x_y.starts_with(prefix) && z.starts_with(prefix) ? x_y + "+" + z.substr(prefix.size())
+                                                            : std::string();
 }
 
 std::string Crs::wkt() const {
@@ -150,7 +183,7 @@ std::string Crs::unit() const {
         return text_or_empty(unit);
     }
     const double metres = system_->GetLinearUnits(&unit);
-    return unit_name(text_or_empty(unit), metres);
+    return unit_name(metres, text_or_empty(unit));
 }
 
 std::string Crs::z_unit() const {
@@ -161,12 +194,12 @@ std::string Crs::z_unit() const {
     if (system_->IsCompound() != 0 || system_->IsVertical() != 0) {
         const char* unit = nullptr;
         const double metres = system_->GetTargetLinearUnits("VERT_CS", &unit);
-        return unit_name(text_or_empty(unit), metres);
+        return unit_name(metres, text_or_empty(unit));
     }
     if (system_->GetAxesCount() == 3) {
         double metres = 0;
         system_->GetAxis(nullptr, 2, nullptr, &metres);
-        return metres > 0 ? unit_name(std::string(), metres) : std::string();
+        return unit_name(metres, "axis");
     }
     return {};
 }

@@ -27,7 +27,7 @@ class Crs {
     [[nodiscard]] bool is_same(const Crs& other) const;
     /// "EPSG:3875 (ETRS89 / GK21FIN)", the name alone without a code, "none" when unknown.
     [[nodiscard]] std::string name() const;
-    /// "EPSG:3875" or empty.
+    /// "EPSG:3875"; "EPSG:25832+5783" of a compound system by its parts'; or empty.
     [[nodiscard]] std::string code() const;
     /// WKT 2, empty when unknown.
     [[nodiscard]] std::string wkt() const;
@@ -36,7 +36,8 @@ class Crs {
     /// Whether positions are in a plane: a projected system, or a local one, with elevations or without.
     [[nodiscard]] bool is_plane() const { return is_known() && !is_geographic(); }
 
-    /// What z is measured from.
+    /// What z is measured from: unknown without z, or where a file tells no more of it than a unit. X, Y, Z
+    /// from the earth's centre count as ellipsoidal, since such are the heights they become.
     enum class Heights { Unknown, Ellipsoidal, Gravity };
     [[nodiscard]] Heights heights() const;
     /// The same without z: the horizontal part of a compound system, a 3-D one made 2-D.
@@ -44,13 +45,14 @@ class Crs {
     /// The 2-D geographic system that it is one of or is based on; unknown where there is none (local
     /// systems).
     [[nodiscard]] Crs geographic() const;
-    /// The horizontal part of this with z measured as in `other`, which has a vertical part or is 3-D; this
-    /// one's horizontal part alone when `other` has none.
+    /// The horizontal part of this with z measured as in `other` and in its unit, which has a vertical part
+    /// or is 3-D; this one's horizontal part alone when `other` has none. Heights above an ellipsoid are then
+    /// above this one's, as a system has but one.
     [[nodiscard]] Crs with_heights_of(const Crs& other) const;
     /// This one's horizontal part with heights in a vertical system by its code, "EPSG:5773". Throws
     /// UsageError.
     [[nodiscard]] Crs with_vertical(const std::string& vertical_code) const;
-    /// This one's horizontal part with z above the ellipsoid.
+    /// This one's horizontal part with z above the ellipsoid, in metres unless it says so already.
     [[nodiscard]] Crs with_ellipsoidal_heights() const;
     /// Whether x and y are the same; vertical parts do not matter. Two unknown ones are.
     [[nodiscard]] bool is_same_horizontally(const Crs& other) const;
@@ -58,7 +60,7 @@ class Crs {
     /// does not say.
     [[nodiscard]] bool has_same_heights(const Crs& other) const;
     /// Whether axes are not the usual ones, east and north: in words, "x points west and y points south";
-    /// else empty.
+    /// else empty, also for those of polar systems, along two meridians.
     [[nodiscard]] std::string axis_directions() const;
     /// Metres that a horizontal unit has; NaN for angles and where unknown.
     [[nodiscard]] double metres_per_unit() const;
