@@ -3,13 +3,14 @@
 #include <array>
 #include <cmath>
 #include <memory>
-#include <numbers>
+#include <span>
 #include <vector>
 
 #include <GeographicLib/Geodesic.hpp>
 #include <GeographicLib/PolygonArea.hpp>
 #include <ogr_spatialref.h>
 
+#include "tinwright/io/angular_unit.hpp"
 #include "tinwright/io/coordinate_transform.hpp"
 
 namespace tinwright::io {
@@ -20,18 +21,12 @@ double flattening(const OGRSpatialReference& system) {
     return inverse == 0 ? 0 : 1 / inverse;  // GDAL's 0 stands for a sphere
 }
 
-/// Exactly 1 for degrees.
-double degrees_per_unit(const OGRSpatialReference& geographic) {
-    const double degrees = geographic.GetAngularUnits() * 180 / std::numbers::pi;
-    return std::abs(degrees - 1) < 1e-12 ? 1 : degrees;
-}
-
 /// The ellipsoid under a plane. Shared by the functions that measure on it, from any thread.
 class Ellipsoid {
   public:
     Ellipsoid(const Crs& plane, const Crs& geographic)
         : to_degrees_(plane, geographic),
-          degrees_(degrees_per_unit(*geographic.gdal())),
+          degrees_(degrees_per_unit(geographic)),
           geodesic_(geographic.gdal()->GetSemiMajor(), flattening(*geographic.gdal())) {}
 
     [[nodiscard]] double length(Point2 a, Point2 b) const {

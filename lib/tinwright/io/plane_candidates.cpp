@@ -5,14 +5,13 @@
 #include <cstdio>
 #include <functional>
 #include <limits>
-#include <memory>
 
 #include <GeographicLib/UTMUPS.hpp>
 #include <ogr_spatialref.h>
-#include <proj.h>
 
 #include "tinwright/geometry/error.hpp"
 #include "tinwright/io/gdal_session.hpp"
+#include "tinwright/io/proj_handles.hpp"
 
 namespace tinwright::io {
 namespace {
@@ -43,19 +42,16 @@ Crs make_projected(const Crs& geographic, const std::string& name,
 
 /// The authority's own system of that name, where it is the same as `made`; else `made`.
 Crs prefer_coded(const Crs& made, const std::string& name) {
-    const std::unique_ptr<PJ_CONTEXT, decltype(&proj_context_destroy)> context(proj_context_create(),
-                                                                               &proj_context_destroy);
+    const ProjContext context(proj_context_create());
     proj_log_level(context.get(), PJ_LOG_NONE);
     const std::array<PJ_TYPE, 1> types{PJ_TYPE_PROJECTED_CRS};
-    const std::unique_ptr<PJ_OBJ_LIST, decltype(&proj_list_destroy)> found(
-        proj_create_from_name(context.get(), "EPSG", name.c_str(), types.data(), types.size(), 0, 1, nullptr),
-        &proj_list_destroy);
-    if (found == nullptr || proj_list_get_count(found.get()) == 0) {
+    const ProjList found(proj_create_from_name(context.get(), "EPSG", name.c_str(), types.data(),
+                                               types.size(), 0, 1, nullptr));
+    if (!found || proj_list_get_count(found.get()) == 0) {
         return made;
     }
-    const std::unique_ptr<PJ, decltype(&proj_destroy)> system(proj_list_get(context.get(), found.get(), 0),
-                                                              &proj_destroy);
-    const char* const code = system == nullptr ? nullptr : proj_get_id_code(system.get(), 0);
+    const ProjObject system(proj_list_get(context.get(), found.get(), 0));
+    const char* const code = system ? proj_get_id_code(system.get(), 0) : nullptr;
     if (code == nullptr) {
         return made;
     }
