@@ -9,6 +9,7 @@
 
 #include "tinwright/geometry/decimal.hpp"
 #include "tinwright/geometry/threads.hpp"
+#include "tinwright/io/cell_places.hpp"
 #include "tinwright/water/river_cells.hpp"
 
 #include "conflict_layer.hpp"
@@ -28,6 +29,14 @@ constexpr auto kRiverCells =
 bool has_rivers(const Surface& surface) {
     return std::find(surface.is_river_line.begin(), surface.is_river_line.end(), true) !=
            surface.is_river_line.end();
+}
+
+/// Metres that a cell in the raster's middle has along parallel and meridian; nothing where it is not degrees
+/// that the raster is in.
+std::optional<Point2> ground_size(const Surface& surface, const GridGeometry& grid) {
+    return surface.output_crs.is_geographic()
+               ? std::optional(io::cell_size_on_ground(grid, surface.output_crs))
+               : std::nullopt;
 }
 
 }  // namespace
@@ -96,17 +105,42 @@ io::WriteGridOptions CommandGrid::write_options() const {
     return options;
 }
 
-GridGeometry CommandGrid::grid_for(const Surface& surface, const std::optional<GridGeometry>& like,
-                                   const io::Crs& like_crs) const {
-    if (!like) {
-        return choose_grid(surface.tin, raster.request);
+io::Crs CommandGrid::output_crs(const Surface& surface, const io::Crs& like_crs) const {
+    const bool is_like = like_crs.is_known() && surface.crs.is_known() && crs.crs_text.empty();
+    return is_like && !like_crs.is_same_horizontally(surface.output_crs)
+               ? like_crs.with_heights_of(surface.crs)
+               : surface.output_crs;
+}
+
+void CommandGrid::check_like(const io::Crs& like_crs) const {
+    if (!like_crs.is_known() || crs.crs_text.empty() || like_crs.is_same_horizontally(crs.crs())) {
+        return;
     }
-    if (like_crs.is_known() && surface.crs.is_known() && !like_crs.is_same(surface.crs)) {
-        throw UsageError("--like " + io::quoted(raster.like) + " is in " + like_crs.name() +
-                         ", the surface in " + surface.crs.name() +
-                         ": add --crs with the raster's CRS to transform the samples");
+    throw UsageError("--like " + io::quoted(raster.like) + " is in " + like_crs.name() + ", --crs asks for " +
+                     crs.crs().name() + ": drop --crs to get the raster of --like");
+}
+
+GridGeometry CommandGrid::grid_for(const Surface& surface) const {
+    const GridRequest& request = raster.request;
+    if (surface.is_written_in_plane()) {
+        return choose_grid(surface.tin, request);
     }
-    return *like;
+    if (request.extent && (request.resolution || request.size)) {
+        return choose_grid(GridBasis{}, request);
+    }
+    GridBasis basis;
+    run_with_threads(triangulation.threads,
+                     [&] { basis = io::find_grid_basis(surface.tin, surface.crs, surface.output_crs); });
+    return choose_grid(basis, request);
+}
+
+RasterPlacing CommandGrid::placing_for(const Surface& surface, const GridGeometry& grid) const {
+    RasterPlacing placing;
+    if (!surface.is_written_in_plane()) {
+        run_with_threads(triangulation.threads,
+                         [&] { placing = io::make_raster_placing(grid, surface.output_crs, surface.crs); });
+    }
+    return placing;
 }
 
 std::vector<std::string> CommandGrid::gradient_warnings(const Surface& surface) const {
@@ -130,8 +164,8 @@ io::WrittenGrid CommandGrid::write(const Surface& surface, const GridGeometry& g
         options.is_surface_bounded = is_bounded(interpolation.options.method);
     }
     io::WrittenGrid written = targets.size() == 1
-                                  ? io::write_grid(surface.tin, surface.crs, grid, targets[0], options)
-                                  : io::write_grids(surface.tin, surface.crs, grid, targets, options);
+                                  ? io::write_grid(surface.tin, surface.output_crs, grid, targets[0], options)
+                                  : io::write_grids(surface.tin, surface.output_crs, grid, targets, options);
     written.interpolate_seconds += seconds;
     return written;
 }
@@ -141,13 +175,14 @@ std::string CommandGrid::reading_options(const Surface& surface) const {
     return interpolation.canonical() + products.canonical() + (has_rivers(surface) ? cells : std::string());
 }
 
-void CommandGrid::set_river_cells(Surface& surface, const GridGeometry& grid,
+void CommandGrid::set_river_cells(Surface& surface, const GridGeometry& grid, const RasterPlacing& placing,
                                   GriddingOptions& gridding) const {
     if (!are_river_cells || !has_rivers(surface)) {
         return;
     }
     run_with_threads(triangulation.threads, [&] {
-        gridding.cells = find_river_cells(surface.tin, surface.is_river_line, surface.is_water_face, grid);
+        gridding.cells =
+            find_river_cells(surface.tin, surface.is_river_line, surface.is_water_face, grid, placing);
     });
     if (surface.water) {
         surface.water->river_cells = gridding.cells.size();
@@ -181,6 +216,7 @@ Outcome CommandGrid::run() {
     std::optional<GridGeometry> like;
     if (!raster.like.empty()) {
         like = io::read_grid_geometry(raster.like, &like_crs);
+        check_like(like_crs);
     }
 
     const SurfaceRequest request{.sources = sources,
@@ -194,7 +230,9 @@ Outcome CommandGrid::run() {
         throw UsageError("--river-cells is for rivers: give --rivers too");
     }
     Surface surface = is_tin ? read_existing_tin(request, console) : triangulate_sources(request, console);
-    const GridGeometry grid = grid_for(surface, like, like_crs);
+    surface.output_crs = output_crs(surface, like_crs);
+    const GridGeometry grid = like ? *like : grid_for(surface);
+    const RasterPlacing placing = placing_for(surface, grid);
     if (like_crs.is_known() && !surface.crs.is_known()) {
         console.warn("the source carries no CRS, so the raster has none, though --like " +
                      io::quoted(raster.like) + " is in " + like_crs.name() + "; --source-crs assigns one");
@@ -203,7 +241,11 @@ Outcome CommandGrid::run() {
         console.warn(warning);
     }
     options.metadata = output_metadata("grid", surface, triangulation, lines, reading_options(surface));
-    set_river_cells(surface, grid, options.gridding);
+    options.gridding.find_places = placing.find_places;
+    if (products.z_factor_text.empty()) {
+        options.gridding.z_factor = surface.z_factor;
+    }
+    set_river_cells(surface, grid, placing, options.gridding);
     options.progress = console.progress().stage(0.6, 1);
     const io::WrittenGrid written = write(surface, grid, targets, options);
     if (surface.conflicts) {
@@ -222,7 +264,13 @@ Outcome CommandGrid::run() {
     report.domain = is_tin ? "as in the TIN" : triangulation.domain_name();
     report.duplicate_policy = triangulation.policy_name();
     report.raster = RasterReport{grid, written, !like && !raster.request.resolution && !raster.request.size,
-                                 interpolation.method_text};
+                                 interpolation.method_text, ground_size(surface, grid)};
+    if (talk.verbose && !surface.is_written_in_plane()) {
+        report.details.emplace_back("cells", "centres brought from " + surface.output_crs.name() + " to " +
+                                                 surface.crs.name() + ", to " +
+                                                 decimal_text(io::kCellPlaceError) +
+                                                 " of a cell, and the surface read there");
+    }
     report.outputs = targets;
     if (!raster.preview.empty()) {
         report.outputs.push_back(raster.preview);

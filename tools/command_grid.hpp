@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tinwright/io/write_grid.hpp"
+#include "tinwright/water/river_cells.hpp"
 
 #include "command.hpp"
 #include "options_crs.hpp"
@@ -44,7 +45,8 @@ class CommandGrid : public Command {
   private:
     /// The options that say how the surface is read.
     [[nodiscard]] std::string reading_options(const Surface& surface) const;
-    void set_river_cells(Surface& surface, const GridGeometry& grid, GriddingOptions& gridding) const;
+    void set_river_cells(Surface& surface, const GridGeometry& grid, const RasterPlacing& placing,
+                         GriddingOptions& gridding) const;
     [[nodiscard]] io::WriteGridOptions write_options() const;
     /// Throws before any work is done where something cannot be written, or would be over a source.
     void check_targets(std::span<const std::string> targets, const io::WriteGridOptions& options) const;
@@ -53,8 +55,14 @@ class CommandGrid : public Command {
     /// Prepares the surface and writes the raster; `options` gets the surface.
     io::WrittenGrid write(const Surface& surface, const GridGeometry& grid,
                           std::span<const std::string> targets, io::WriteGridOptions& options) const;
-    [[nodiscard]] GridGeometry grid_for(const Surface& surface, const std::optional<GridGeometry>& like,
-                                        const io::Crs& like_crs) const;
+    /// Throws UsageError when --like and --crs contradict each other.
+    void check_like(const io::Crs& like_crs) const;
+    /// --crs, else that of --like, else the plane's, with the surface's heights.
+    [[nodiscard]] io::Crs output_crs(const Surface& surface, const io::Crs& like_crs) const;
+    /// The raster's geometry in the surface's output CRS, without --like.
+    [[nodiscard]] GridGeometry grid_for(const Surface& surface) const;
+    /// Where that is in the surface's plane; as made where they are the same.
+    [[nodiscard]] RasterPlacing placing_for(const Surface& surface, const GridGeometry& grid) const;
 };
 
 }  // namespace tinwright::tools

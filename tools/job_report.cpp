@@ -42,8 +42,8 @@ std::string fixed(double value, int decimals) {
 JsonValue raster_json(const RasterReport& raster) {
     const GridGeometry& grid = raster.grid;
     const Box extent = grid.extent();
-    return JsonValue::object()
-        .set("columns", grid.columns)
+    JsonValue json = JsonValue::object();
+    json.set("columns", grid.columns)
         .set("rows", grid.rows)
         .set("cell_width", grid.cell_width)
         .set("cell_height", grid.cell_height)
@@ -54,6 +54,10 @@ JsonValue raster_json(const RasterReport& raster) {
         .set("type", raster.written.data_type)
         .set("method", raster.method)
         .set("products", JsonValue::array_of(raster.written.bands));
+    if (raster.ground_size) {
+        json.set("cell_on_ground", JsonValue::array_of({raster.ground_size->x, raster.ground_size->y}));
+    }
+    return json;
 }
 
 /// Of whatever was done to the Delaunay TIN afterwards.
@@ -183,6 +187,14 @@ std::string length_text(double value) {
     return text.data();
 }
 
+/// Three digits.
+std::string short_text(double value) {
+    std::array<char, 48> text{};
+    std::snprintf(text.data(), text.size(), "%.*f", std::clamp(2 - static_cast<int>(std::log10(value)), 0, 4),
+                  value);
+    return text.data();
+}
+
 std::string raster_line(const RasterReport& raster) {
     const GridGeometry& grid = raster.grid;
     const double cells = static_cast<double>(grid.columns) * static_cast<double>(grid.rows);
@@ -190,6 +202,10 @@ std::string raster_line(const RasterReport& raster) {
     std::string size = length_text(grid.cell_width);
     if (length_text(grid.cell_height) != size) {
         size += " x " + length_text(grid.cell_height);
+    }
+    if (raster.ground_size) {
+        size += " degree (on the ground in the middle " + short_text(raster.ground_size->x) + " x " +
+                short_text(raster.ground_size->y) + " m)";
     }
     return std::to_string(grid.columns) + " x " + std::to_string(grid.rows) + " cells of " + size +
            (raster.is_resolution_chosen ? " (chosen from the sample spacing)" : "") + ", " + fixed(share, 1) +

@@ -22,6 +22,8 @@ struct RasterReport {
     io::WrittenGrid written;
     bool is_resolution_chosen = false;  ///< by us, not by the user
     std::string method = "linear";
+    /// Metres that a cell in the middle measures, of rasters in degrees.
+    std::optional<Point2> ground_size = std::nullopt;
 };
 
 /// What a finished command has to tell, once for people and once as JSON (docs/json.md).

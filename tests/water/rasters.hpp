@@ -40,8 +40,9 @@ struct Raster {
 /// The surface of a TIN under a method, as a raster; single precision where `is_float`.
 inline Raster grid_of(const tinwright::Tin& tin, const tinwright::Interpolator* surface,
                       const tinwright::GridGeometry& grid, const std::vector<tinwright::CellElevation>& cells,
-                      bool is_float) {
+                      bool is_float, const tinwright::FindCellPlaces& find_places = {}) {
     tinwright::GriddingOptions options;
+    options.find_places = find_places;
     options.cells = cells;
     tinwright::SurfaceGridder gridder(tin, surface, grid, grid.rows, options);
     const auto count = static_cast<std::size_t>(grid.columns * grid.rows);

@@ -30,11 +30,16 @@ RasterPlacing make_raster_placing(const GridGeometry& grid, const Crs& grid_crs,
 
 /// Bounds and spacing of a TIN's terrain in another system, for `choose_grid`: vertices and points along
 /// the terrain's border transformed exactly, bounds rounded outward to a decimal of at most a thousandth of
-/// the spacing; longitudes in one piece (past 180 where the terrain crosses the antimeridian), from -180 to
-/// 180 where it goes round a pole, latitudes up to the pole where that is on the terrain. The spacing is that
-/// of the ground, in units of the system, typical of the terrain (a median); of latitude in geographic
-/// systems. Throws InputError for a terrain without faces or outside of what the system can show. O(n).
+/// the spacing (but for noise); longitudes in one piece (past 180 where the terrain crosses the
+/// antimeridian), from -180 to 180 where it goes round a pole, latitudes up to the pole where that is on the
+/// terrain. The spacing is that of the ground, in units of the system, typical of the terrain (a median); of
+/// latitude in geographic systems. Throws InputError for a terrain without faces or outside of what the
+/// system can show. O(n).
 GridBasis find_grid_basis(const Tin& tin, const Crs& plane, const Crs& grid_crs);
+
+/// Metres that a cell in the middle of a raster in a geographic system measures on the ellipsoid, along the
+/// parallel and along the meridian.
+Point2 cell_size_on_ground(const GridGeometry& grid, const Crs& grid_crs);
 
 }  // namespace tinwright::io
 

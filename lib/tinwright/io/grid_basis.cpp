@@ -4,8 +4,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <vector>
+
+#include <ogr_spatialref.h>
 
 #include "tinwright/geometry/decimal.hpp"
 #include "tinwright/geometry/error.hpp"
@@ -145,17 +148,17 @@ std::optional<double> find_scale(const Tin& tin, const CoordinateTransform& tran
 }
 
 /// Rounded away from the box to a decimal of at most a thousandth of the spacing: corners of rasters then are
-/// numbers that people can read and formats can hold.
+/// numbers that people can read and formats can hold. What is beyond such a decimal by less than a thousandth
+/// of its step is so by the way there and back.
 Box rounded_outward(const Box& box, double spacing) {
+    constexpr double kNoise = 1e-3;
     const int exponent = static_cast<int>(std::floor(std::log10(spacing))) - 3;
     const auto down = [exponent](double value) {
-        const double steps = std::floor(value / std::pow(10.0, exponent));
+        const double steps = std::floor(value / std::pow(10.0, exponent) + kNoise);
         if (!(std::abs(steps) < 0x1p53)) {
             return value;
         }
-        const auto whole = static_cast<Int128>(steps);
-        const double rounded = from_steps(whole, exponent);
-        return rounded > value ? from_steps(whole - 1, exponent) : rounded;
+        return from_steps(static_cast<Int128>(steps), exponent);
     };
     return {down(box.x_min), down(box.y_min), -down(-box.x_max), -down(-box.y_max)};
 }
@@ -192,6 +195,20 @@ GridBasis find_grid_basis(const Tin& tin, const Crs& plane, const Crs& grid_crs)
     bounds.y_min = std::max(bounds.y_min, -90 / degrees);
     bounds.y_max = std::min(bounds.y_max, 90 / degrees);
     return {bounds, own_spacing};
+}
+
+Point2 cell_size_on_ground(const GridGeometry& grid, const Crs& grid_crs) {
+    const Box box = grid.extent();
+    const double radians = degrees_per_unit(grid_crs) * std::numbers::pi / 180;
+    const double latitude = (box.y_min + box.y_max) / 2 * radians;
+    const double flattening =
+        grid_crs.gdal()->GetInvFlattening() > 0 ? 1 / grid_crs.gdal()->GetInvFlattening() : 0;
+    const double eccentricity = flattening * (2 - flattening);  // squared
+    const double sine = std::sin(latitude);
+    const double w = std::sqrt(1 - eccentricity * sine * sine);
+    const double across = grid_crs.gdal()->GetSemiMajor() / w;
+    const double along = across * (1 - eccentricity) / (w * w);
+    return {grid.cell_width * radians * across * std::cos(latitude), grid.cell_height * radians * along};
 }
 
 }  // namespace tinwright::io

@@ -18,6 +18,10 @@ constexpr double kLeastRatio = 0.01;
 // Terms are left out as long as together they come to no more than this part of the tolerance.
 constexpr double kNegligible = 0.1;
 
+// Rows, up and down, to the points that tell where north is of a cell: near enough for cells of 10 kilometres
+// by a pole, far enough for PROJ's digits in cells of a decimetre.
+constexpr double kNearby = 1.0 / 16;
+
 using Row = std::array<Point2, kTerms>;
 using Square = std::array<Row, kTerms>;
 
@@ -178,7 +182,8 @@ void ExactPlaces::find(std::int64_t row, std::int64_t first, std::span<CellPlace
     for (std::size_t i = 0; i < places.size(); ++i) {
         const auto column = static_cast<double>(first + static_cast<std::int64_t>(i));
         const auto middle = static_cast<double>(row);
-        points.insert(points.end(), {{column, middle}, {column, middle - 0.5}, {column, middle + 0.5}});
+        points.insert(points.end(),
+                      {{column, middle}, {column, middle - kNearby}, {column, middle + kNearby}});
     }
     find(std::span<Point2>(points));
     for (std::size_t i = 0; i < places.size(); ++i) {

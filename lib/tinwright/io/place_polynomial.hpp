@@ -23,7 +23,7 @@ class ExactPlaces {
 
     /// Column and row, counted from the centre of the first cell, to positions; NaN where there is none.
     void find(std::span<Point2> cells) const;
-    /// Cells of a row, with the direction of the raster's north by a difference of half a cell either way.
+    /// Cells of a row, with the direction of the raster's north by a small difference either way.
     void find(std::int64_t row, std::int64_t first, std::span<CellPlace> places) const;
 
     [[nodiscard]] const GridGeometry& grid() const { return grid_; }
