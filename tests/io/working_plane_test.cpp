@@ -171,7 +171,7 @@ TEST_SUITE("io/working_plane") {
                           {{longitude, -80}, {longitude, -80.001}, {longitude, 90}, {longitude, -90}});
         }
         Random random(8);
-        for (int i = 0; i < tinwright_tests::cases(60); ++i) {
+        for (int i = 0; i < tinwright_tests::cases(40); ++i) {
             places.push_back({360 * random.real() - 180, 180 * random.real() - 90});
         }
         for (const Point2& place : places) {
@@ -290,6 +290,28 @@ TEST_SUITE("io/working_plane") {
         CHECK(std::abs(a.x * b.x + a.y * b.y) < 1);
         CHECK(b.x > 0);
         CHECK(a.y < 0);
+        Random random(90);
+        check_by_geodesics(north.crs, 1, north.extent, north.scale, random);
+        check_by_geodesics(south.crs, 1, south.extent, south.scale, random);
+    }
+
+    TEST_CASE("elevations in a source's system do not matter to the plane") {
+        for (const char* const source : {"EPSG:4979", "EPSG:4326+5773"}) {
+            CAPTURE(source);
+            CHECK(choose(box(10, 11, 45, 46), Rule::Auto, 0.001, source).crs.code() == "EPSG:32632");
+            CHECK(choose(box(10, 11, 45, 46), Rule::Local, 0.001, source)
+                      .crs.is_same(choose(box(10, 11, 45, 46), Rule::Local).crs));
+        }
+    }
+
+    TEST_CASE("other bodies have local planes") {  // PROJ has no UTM on a sphere
+        const WorkingPlane moon = choose(box(4, 5, 50, 51), Rule::Auto, 0.001, "IAU_2015:30100");
+        CHECK(moon.origin == Origin::Local);
+        Random random(1);
+        check_by_geodesics(moon.crs, 1, moon.extent, moon.scale, random);
+        CHECK(message_of<InputError>([] {
+                  choose(box(4, 34, 0, 30), Rule::Auto, 0.001, "IAU_2015:30100");
+              }).find("(910 by 910 km): UTM zone 34N cannot hold it, ") != std::string::npos);
     }
 
     TEST_CASE("data across the antimeridian get the plane of data elsewhere") {
@@ -426,7 +448,7 @@ TEST_SUITE("io/working_plane") {
         const std::string message = message_of<InputError>([&] { choose(extent); });
         CHECK(message ==
               "no plane keeps lengths right to 0.1 % (--max-distortion) over the data's extent, 115.0 W to "
-              "105.3 W, 20.0 N to 30.0 N (1014 by 1112 km): UTM zone 12N is off by up to 0.4 %, a local "
+              "105.3 W, 20.0 N to 30.0 N (1015 by 1113 km): UTM zone 12N is off by up to 0.4 %, a local "
               "transverse "
               "Mercator is off by up to 0.16 %, a local stereographic is off by up to 0.17 %; give "
               "--max-distortion 0.0016, cut the data with where=, or name a projected system made for the "
@@ -441,7 +463,7 @@ TEST_SUITE("io/working_plane") {
         CHECK(pole.find("choose --working-crs local, ") != std::string::npos);
 
         const std::string earth = message_of<InputError>([] { choose(cap(-90, 90)); });
-        CHECK(earth.find("does not reach so far") != std::string::npos);
+        CHECK(earth.find("cannot hold it") != std::string::npos);
         CHECK(earth.find('\n') == std::string::npos);
     }
 

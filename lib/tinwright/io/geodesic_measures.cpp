@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
@@ -83,6 +84,7 @@ GroundMeasures make_geodesic_measures(const Crs& plane) {
     measures.length_function = [ellipsoid](Point2 a, Point2 b) { return ellipsoid->length(a, b); };
     measures.area_function = [ellipsoid](std::span<const Point2> ring) { return ellipsoid->area(ring); };
     measures.unit = "metre";
+    measures.distortion = std::numeric_limits<double>::infinity();
     return measures;
 }
 

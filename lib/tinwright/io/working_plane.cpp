@@ -38,33 +38,33 @@ std::string limit_text(double distortion) {
     return format("%.2g", std::ceil(distortion / step) * step);
 }
 
-std::string size_text(const GeographicExtent& extent) {
-    constexpr double kKilometresInDegree = 111.2;
-    // Along the parallel of the extent that is the longest.
-    const double widest = extent.south > 0 ? extent.south : std::min(extent.north, 0.0);
-    const double width = (extent.east - extent.west) * std::cos(widest * std::numbers::pi / 180);
-    const double height = extent.north - extent.south;
+/// How large that is; `radius` of the equator, metres.
+std::string size_text(const GeographicExtent& extent, double radius) {
+    constexpr double kRadian = std::numbers::pi / 180;
+    const double degree = radius * kRadian / 1000;
+    const std::string height = format("%.0f km", (extent.north - extent.south) * degree);
     if (extent.has_pole) {
-        return "up to " + format("%.0f km", height * kKilometresInDegree) + " from it";
+        return "up to " + height + " from it";
     }
-    return format("%.0f", width * kKilometresInDegree) + " by " +
-           format("%.0f km", height * kKilometresInDegree);
+    // Along the longest of its parallels.
+    const double widest = extent.south > 0 ? extent.south : std::min(extent.north, 0.0);
+    const double width = (extent.east - extent.west) * std::cos(widest * kRadian) * degree;
+    return format("%.0f", width) + " by " + height;
 }
 
-/// "UTM zone 14N would be off by 5 %" for each candidate.
+/// "UTM zone 14N is off by up to 5 %" for each candidate.
 std::string figures(std::span<const PlaneCandidate> candidates) {
     std::string text;
     for (const PlaneCandidate& candidate : candidates) {
         text += text.empty() ? "" : ", ";
         text += candidate.kind;
-        text += candidate.scale ? " is off by up to " + percent(candidate.distortion())
-                                : " does not reach so far";
+        text += candidate.scale ? " is off by up to " + percent(candidate.distortion()) : " cannot hold it";
     }
     return text;
 }
 
-[[noreturn]] void refuse(const GeographicExtent& extent, std::span<const PlaneCandidate> candidates,
-                         const PlaneRequest& request) {
+[[noreturn]] void refuse(const Crs& geographic, const GeographicExtent& extent,
+                         std::span<const PlaneCandidate> candidates, const PlaneRequest& request) {
     double least = candidates.front().distortion();
     for (const PlaneCandidate& candidate : candidates) {
         least = std::min(least, candidate.distortion());
@@ -78,7 +78,8 @@ std::string figures(std::span<const PlaneCandidate> candidates) {
     }
     throw InputError("no plane keeps lengths right to " + percent(request.max_distortion) +
                      " (--max-distortion) over the data's extent, " + extent.text() + " (" +
-                     size_text(extent) + "): " + figures(candidates) + "; " + advice +
+                     size_text(extent, geographic.gdal()->GetSemiMajor()) + "): " + figures(candidates) +
+                     "; " + advice +
                      "cut the data with where=, or name a projected system made for the area, such as a "
                      "country's Lambert or Albers, with --working-crs");
 }
@@ -191,7 +192,7 @@ WorkingPlane choose_working_plane(const Crs& source, const GeographicExtent& ext
             return make_plane(source, extent, best, WorkingPlane::Origin::Local);
         }
     }
-    refuse(extent, candidates, request);
+    refuse(geographic, extent, candidates, request);
 }
 
 std::string check_distortion(const WorkingPlane& plane, const PlaneRequest& request) {

@@ -63,11 +63,13 @@ struct WorkingPlane {
 };
 
 /// Chooses the plane for data in the geographic system `source` over `extent`, by a rule other than Given.
-/// Both UTM and local systems are on the sources' own datum, so nothing is lost on the way. Of two local
-/// ones, transverse Mercator (tall extents) and oblique or polar stereographic (round ones and poles), the
-/// one of less distortion is taken; its scale at the centre balances the errors. Centres are rounded to
-/// hundredths of a degree. Throws InputError when the distortion exceeds the limit, saying what would help.
-/// O(1).
+/// Both UTM and local systems are on the sources' own datum, so nothing is lost on the way; a zone that the
+/// authority has a code for is taken by that. Of two local ones, transverse Mercator (tall extents) and
+/// oblique or polar stereographic (round ones and poles), the one of less distortion is taken; its scale at
+/// the centre, rounded to millionths, balances the errors. Centres are rounded to hundredths of a degree. The
+/// plane has no vertical part: what z is measured from is the caller's to add. Throws InputError when the
+/// distortion exceeds the limit, whichever rule it is, saying what would help, and for an empty extent. O(1),
+/// some tens of milliseconds.
 WorkingPlane choose_working_plane(const Crs& source, const GeographicExtent& extent,
                                   const PlaneRequest& request);
 
