@@ -50,6 +50,8 @@ void run_convergence(const Settings& settings);
 void run_natural_neighbor(const Settings& settings);
 /// Splines of vertices: preparation, reading, memory.
 void run_smooth(const Settings& settings);
+/// Coordinates of many points from one system to another.
+void run_transform(const Settings& settings);
 
 }  // namespace tinwright_benchmarks
 

@@ -4,7 +4,7 @@
 #   bash tests/benchmarks/run.sh [TABLE...]        tables: delaunay raster read job criteria criteria_growth
 #                                                 criteria_worst length length_growth length_worst noding
 #                                                 constrained conforming contour clough_tocher accuracy
-#                                                 convergence natural_neighbor smooth (default: all)
+#                                                 convergence natural_neighbor smooth transform (default: all)
 # ROUNDS=k changes the number of interleaved runs of which the median is taken (default 5). SCALE=f takes that part
 # of the points for a quick look. BUILD=folder holds the build. TINWRIGHT_DATA=folder holds the data sets that
 # accuracy is measured on; without it there are only the generated ones.
@@ -20,7 +20,7 @@ scale=${SCALE:-1}
 tables=("$@")
 if [ ${#tables[@]} -eq 0 ]; then
     tables=(delaunay raster read job criteria criteria_growth criteria_worst length length_growth length_worst noding
-        constrained conforming contour clough_tocher accuracy convergence natural_neighbor smooth)
+        constrained conforming contour clough_tocher accuracy convergence natural_neighbor smooth transform)
 fi
 
 cmake -S "$root" -B "$build" -DCMAKE_BUILD_TYPE=Release -DTINWRIGHT_BUILD_BENCHMARKS=ON
