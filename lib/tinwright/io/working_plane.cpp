@@ -117,8 +117,7 @@ PlaneRequest parse_plane_request(const std::string& text) {
         request.rule = word == "utm" ? PlaneRequest::Rule::Utm : PlaneRequest::Rule::Local;
         return request;
     }
-    const std::string advice =
-        "; give a projected system such as EPSG:32632, or \"auto\", \"utm\" or \"local\"";
+    const std::string advice = R"(; give a projected system such as EPSG:32632, or "auto", "utm" or "local")";
     try {
         request.crs = Crs::parse(text);
     } catch (const UsageError&) {
