@@ -208,16 +208,21 @@ TEST_SUITE("water/river_cells") {
             };
             const auto cells = find_river_cells(tin, is_river, {}, grid, placing);
             std::vector<Breakline> lines_there = lines;
-            const auto move = [&](std::vector<Breakline>& moved) {
-                for (Breakline& line : moved) {
-                    for (Point3& point : line.points) {
-                        const Point2 there = to_raster({point.x, point.y});
-                        point = {there.x, there.y, point.z};
-                    }
+            const auto move = [&](std::vector<Point3>& points) {
+                for (Point3& point : points) {
+                    const Point2 there = to_raster({point.x, point.y});
+                    point = {there.x, there.y, point.z};
                 }
             };
-            move(lines_there);
-            move(water.lines);
+            for (std::size_t i = 0; i < lines.size(); ++i) {
+                move(lines_there[i].points);
+            }
+            for (Breakline& line : water.lines) {
+                move(line.points);
+            }
+            for (Reach& reach : water.report.reaches) {
+                move(reach.points);
+            }
             for (const bool is_float : {false, true}) {
                 const Raster raster = grid_of(tin, nullptr, grid, cells, is_float, placing.find_places);
                 const RasterCheckReport report = raster.check(lines_there, water);

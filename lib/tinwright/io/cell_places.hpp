@@ -21,7 +21,7 @@ inline constexpr double kCellPlaceError = 1e-5;
 /// misses further exact points by more than a tenth of `kCellPlaceError` it is quartered, down to few cells,
 /// which are exact. Cells outside of the transformation's area get NaN. The result does not depend on threads
 /// or on what is asked for in what order; may be called from several threads at a time. The polynomials of
-/// the rows asked for last are kept. 5 to 20 ns a cell; a microsecond and more where it must be exact.
+/// the rows asked for last are kept. 4 ns a cell, where it must be exact three times what PROJ takes.
 /// Throws InputError when there is no way between the systems.
 FindCellPlaces make_cell_places(const GridGeometry& grid, const Crs& grid_crs, const Crs& plane);
 

@@ -105,12 +105,14 @@ void visit_periodic(Point2 a, Point2 b, const GridGeometry& grid, double period,
     }
     const double dx = std::remainder(b.x - a.x, period);
     const double width = static_cast<double>(grid.columns) * grid.cell_width;
-    for (double turn = -std::floor((a.x - grid.x_min) / period) - 1;; ++turn) {
-        const double start = a.x + turn * period;
-        if (std::min(start, start + dx) > grid.x_min + width) {
-            return;
-        }
-        visit_cells({start, a.y}, {start + dx, b.y}, grid, visit);
+    // Turns that bring the segment's beginning in front of the raster, or its end behind it, and those
+    // between.
+    const double first = -std::floor((a.x - grid.x_min) / period) - 1;
+    const double last = std::floor((grid.x_min + width - (a.x + std::min(dx, 0.0))) / period);
+    // What leaves the raster on one side comes in again on the other.
+    for (double i = 0; i <= last - first; ++i) {
+        const double x = a.x + (dx > 0 ? last - i : first + i) * period;
+        visit_cells({x, a.y}, {x + dx, b.y}, grid, visit);
     }
 }
 
