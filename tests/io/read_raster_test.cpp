@@ -194,12 +194,12 @@ TEST_SUITE("io/read_raster") {
             system.importFromEPSG(3067);
             dataset.SetSpatialRef(&system);
         });
-        const Samples samples = read(std::string(raster.path()) + ",crs=EPSG:3875");
-        CHECK(samples.crs.code() == "EPSG:3875");
+        const Samples samples = read(std::string(raster.path()) + ",crs=EPSG:32635");
+        CHECK(samples.crs.code() == "EPSG:32635");
         CHECK(samples.warnings ==
               std::vector<std::string>{
                   R"(file "/vsimem/r.tif": says EPSG:3067 (ETRS89 / TM35FIN(E,N)); read as )"
-                  "EPSG:3875 (ETRS89 / GK21FIN) because of crs="});
+                  "EPSG:32635 (WGS 84 / UTM zone 35N) because of crs="});
         ReadOptions options;
         options.source_crs = Crs::parse("EPSG:3875");
         CHECK(read(raster.path(), options).crs.code() == "EPSG:3067");

@@ -126,27 +126,11 @@ TEST_SUITE("io/read_samples") {
         CHECK(samples.slices[0].ids == std::vector<std::int64_t>{2, 4});
     }
 
-    TEST_CASE("geographic samples are refused with a system that would do") {
-        const MemoryFile file("g.csv", "lon,lat,z\n27,60.5,1\n28,61,2\n");
-        CHECK(
-            message_of<InputError>([&] { read(file.path() + ",crs=EPSG:4326"); }) ==
-            R"(file "/vsimem/g.csv": coordinates are geographic, EPSG:4326 (WGS 84), and degrees cannot be measured )"
-            "as a plane; give a projected system with --crs, for example --crs EPSG:32635");
-        const MemoryFile south("s.csv", "lon,lat,z\n359,-10,1\n");
-        CHECK(message_of<InputError>([&] {
-                  read(south.path() + ",crs=EPSG:4326");
-              }).ends_with("for example --crs EPSG:32730"));
-        CHECK(
-            message_of<UsageError>([&] { read(file.path(), working_in("EPSG:4326")); }) ==
-            "--crs EPSG:4326 (WGS 84) is geographic: degrees cannot be measured as a plane; give a projected "
-            "system");
-    }
-
     TEST_CASE("columns called longitude and latitude are never taken for metres") {
         const MemoryFile file("g.csv", "lon,lat,z\n27,60.5,1\n");
         const std::string refusal =
             R"(file "/vsimem/g.csv": coordinates are longitude and latitude in an unknown system; give theirs, for )"
-            "example crs=EPSG:4326, and a projected one with --crs";
+            "example crs=EPSG:4326";
         CHECK(message_of<InputError>([&] { read(file.path()); }) == refusal);
         CHECK(message_of<InputError>([&] { read(file.path(), working_in("EPSG:32635")); }) == refusal);
         ReadOptions options = working_in("EPSG:32635");
