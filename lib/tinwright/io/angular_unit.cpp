@@ -19,7 +19,7 @@ double degrees_per_unit(const Crs& crs) {
 
 void to_degrees(const Crs& crs, std::vector<Point3>& points) {
     const Crs geographic = crs.geographic();
-    if (!crs.is_geographic()) {
+    if (!crs.is_same_horizontally(geographic)) {  // a rotated pole makes a geographic system of another
         constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
         const CoordinateTransform transform(crs.horizontal(), geographic);
         for (const std::size_t i : transform.forward(points)) {

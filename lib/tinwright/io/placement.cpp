@@ -11,6 +11,7 @@
 #include <tbb/parallel_for.h>
 
 #include "tinwright/geometry/error.hpp"
+#include "tinwright/io/angular_unit.hpp"
 #include "tinwright/io/gdal_session.hpp"
 #include "tinwright/io/length_unit.hpp"
 
@@ -44,24 +45,22 @@ void for_each_point(std::span<Point3> points, const Work& work) {
     });
 }
 
-/// Positions in a geographic system as degrees east of Greenwich and north.
-std::vector<Point3> in_degrees(std::span<const Point3> points, const Crs& geographic) {
-    const double unit = geographic.gdal()->GetAngularUnits() * 180 / std::acos(-1.0);
-    const double meridian = geographic.gdal()->GetPrimeMeridian();
-    const bool is_degree = std::abs(unit - 1) < 1e-12;
+/// Positions in a system as degrees east of Greenwich and north; NaN for those that cannot be.
+std::vector<Point3> in_degrees(std::span<const Point3> points, const Crs& crs) {
     std::vector<Point3> degrees(points.begin(), points.end());
-    for_each_point(degrees, [&](Point3& point, std::size_t) {
-        point.x = (is_degree ? point.x : point.x * unit) + meridian;
-        point.y = is_degree ? point.y : point.y * unit;
-    });
+    to_degrees(crs, degrees);
+    if (const double meridian = crs.geographic().gdal()->GetPrimeMeridian(); meridian != 0) {
+        for (Point3& point : degrees) {
+            point.x += meridian;
+        }
+    }
     return degrees;
 }
 
 /// Systems that degrees east of Greenwich can be taken to be in: the system itself, or WGS 84 for one of
 /// other units or another meridian.
 Crs in_plain_degrees(const Crs& geographic) {
-    const bool is_plain = std::abs(geographic.gdal()->GetAngularUnits() - std::acos(-1.0) / 180) < 1e-14 &&
-                          geographic.gdal()->GetPrimeMeridian() == 0;
+    const bool is_plain = degrees_per_unit(geographic) == 1 && geographic.gdal()->GetPrimeMeridian() == 0;
     return is_plain ? geographic : Crs::parse("EPSG:4326");
 }
 
@@ -215,17 +214,10 @@ void Placement::measure_plane() {
     const Noted* const first = first_known();
     for (const Noted& noted : noted_) {
         const Crs& crs = noted.crs.is_known() ? noted.crs : plane_.crs;
-        const Crs geographic = crs.geographic();
-        if (!noted.is_noted || noted.bounds.is_empty() || !crs.is_plane() || !geographic.is_known()) {
+        if (!noted.is_noted || noted.bounds.is_empty() || !crs.is_plane() || !crs.geographic().is_known()) {
             continue;
         }
-        std::vector<Point3> net = net_over(noted.bounds);
-        const std::vector<std::size_t> failed =
-            CoordinateTransform(crs.horizontal(), geographic).forward(net);
-        for (const std::size_t i : failed) {
-            net[i].y = std::numeric_limits<double>::quiet_NaN();  // not looked at
-        }
-        extent_.add(in_degrees(net, geographic));
+        extent_.add(in_degrees(net_over(noted.bounds), crs));
     }
     const GeographicExtent extent = extent_.extent();
     if (!plane_.crs.is_known()) {
@@ -356,16 +348,11 @@ std::vector<std::size_t> Placement::place(std::size_t s, std::span<Point3> point
 std::vector<Point3> Placement::geographic_positions(const Noted& noted,
                                                     std::span<const Point3> points) const {
     const Crs& crs = noted.crs.is_known() ? noted.crs : plane_.crs;
-    const Crs geographic = crs.geographic();
-    if (!geographic.is_known()) {
+    if (!crs.geographic().is_known()) {
         throw InputError("--geoid needs to know where on the earth the samples are, and " + crs.name() +
                          " does not tell; give their CRS with crs=");
     }
-    std::vector<Point3> at(points.begin(), points.end());
-    if (crs.is_plane()) {
-        static_cast<void>(CoordinateTransform(crs.horizontal(), geographic).forward(at));
-    }
-    return in_degrees(at, geographic);
+    return in_degrees(points, crs);
 }
 
 void Placement::convert_units(std::span<Point3> points, const std::string& from, const std::string& to) {
