@@ -451,7 +451,7 @@ TEST_SUITE("io/working_plane") {
               "105.3 W, 20.0 N to 30.0 N (1015 by 1113 km): UTM zone 12N is off by up to 0.4 %, a local "
               "transverse "
               "Mercator is off by up to 0.16 %, a local stereographic is off by up to 0.17 %; give "
-              "--max-distortion 0.0016, cut the data with where=, or name a projected system made for the "
+              "--max-distortion 0.16%, cut the data with where=, or name a projected system made for the "
               "area, "
               "such as a country's Lambert or Albers, with --working-crs");
         CHECK(choose(extent, Rule::Auto, 0.0016).origin == Origin::Local);
@@ -459,7 +459,7 @@ TEST_SUITE("io/working_plane") {
         const std::string pole = message_of<InputError>([] { choose(cap(89, 90), Rule::Utm); });
         CHECK(
             pole.find("round the north pole, 89.0 N to 90.0 N (up to 111 km from it): UPS North is off by up "
-                      "to 0.6 %; give --max-distortion 0.006") != std::string::npos);
+                      "to 0.6 %; give --max-distortion 0.6") != std::string::npos);
         CHECK(pole.find("choose --working-crs local, ") != std::string::npos);
 
         const std::string earth = message_of<InputError>([] { choose(cap(-90, 90)); });
@@ -482,7 +482,7 @@ TEST_SUITE("io/working_plane") {
             const std::string word = "give --max-distortion ";
             const std::size_t at = message.find(word);
             REQUIRE(at != std::string::npos);
-            const double limit = std::stod(message.substr(at + word.size()));
+            const double limit = std::stod(message.substr(at + word.size())) / 100;
             const WorkingPlane plane = choose(extent, Rule::Local, limit);
             CHECK(plane.scale.distortion() > 0.9 * limit);
         }
@@ -563,8 +563,12 @@ TEST_SUITE("io/working_plane") {
               "EPSG:3857 (WGS 84 / Pseudo-Mercator) stretches lengths by 1.41 to 1.44 over the data (10.0 E "
               "to 11.0 "
               "E, 45.0 N to 46.0 N), more than the 0.1 % of --max-distortion; give --working-crs local, "
-              "another "
-              "projected system, or --max-distortion 0.44");
+              "--max-distortion 44% or another projected system");
+        plane.scale = {2.5, 3};  // no limit allows that
+        CHECK(message_of<InputError>([&] {
+                  (void)check_distortion(plane, asked);
+              }).ends_with("give --working-crs local or another projected system"));
+        plane.scale = {1.41, 1.44};
         asked.max_distortion = 0.5;
         CHECK_FALSE(check_distortion(plane, asked).empty());  // within the limit, but still worth a word
         plane.scale = {0.995, 1.005};

@@ -32,10 +32,15 @@ std::string percent(double part) {
     return format(value < 10 ? "%.2g %%" : "%.0f %%", value);
 }
 
-/// The next larger number of two digits: a limit that is kept.
-std::string limit_text(double distortion) {
-    const double step = std::pow(10, std::floor(std::log10(distortion)) - 1);
-    return format("%.2g", std::ceil(distortion / step) * step);
+/// "--max-distortion 0.16%", the next larger limit of two digits: it is kept. Empty beyond 100 %.
+std::string limit_advice(double distortion) {
+    const double value = distortion * 100;
+    const double step = std::pow(10, std::floor(std::log10(value)) - 1);
+    const double limit = std::ceil(value / step) * step;
+    if (!(limit <= 100)) {
+        return {};
+    }
+    return "--max-distortion " + format(limit < 10 ? "%.2g%%" : "%.0f%%", limit);
 }
 
 /// How large that is; `radius` of the equator, metres.
@@ -69,10 +74,8 @@ std::string figures(std::span<const PlaneCandidate> candidates) {
     for (const PlaneCandidate& candidate : candidates) {
         least = std::min(least, candidate.distortion());
     }
-    std::string advice;
-    if (std::isfinite(least)) {
-        advice = "give --max-distortion " + limit_text(least) + ", ";
-    }
+    std::string advice = limit_advice(least);
+    advice = advice.empty() ? advice : "give " + advice + ", ";
     if (request.rule == PlaneRequest::Rule::Utm) {
         advice += "choose --working-crs local, ";
     }
@@ -204,10 +207,10 @@ std::string check_distortion(const WorkingPlane& plane, const PlaneRequest& requ
                              " to " + format("%.5g", plane.scale.greatest) + " over the data (" +
                              plane.extent.text() + ")";
     if (does_limit_count && distortion > request.max_distortion) {
+        const std::string advice = limit_advice(distortion);
         throw InputError(what + ", more than the " + percent(request.max_distortion) +
-                         " of --max-distortion; give --working-crs local, another projected system, or "
-                         "--max-distortion " +
-                         limit_text(distortion));
+                         " of --max-distortion; give --working-crs local" +
+                         (advice.empty() ? advice : ", " + advice) + " or another projected system");
     }
     if (!is_named(plane) || distortion <= kWorthAWarning) {
         return {};
