@@ -317,6 +317,55 @@ TEST_SUITE("breaklines/domain") {
         CHECK(border_of(tin.mesh).size() == 4 * 19 + 4 * 6);
     }
 
+    TEST_CASE("where lengths differ on the ground, every edge counts by what the ground says") {
+        for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(cases(40)); ++seed) {
+            CAPTURE(seed);
+            Random random(seed);
+            Tin tin = delaunay_tin(some_keys(random, 300, 1000));
+            const double distortion = 0.001 * static_cast<double>(random.integer(0, 30));
+            std::size_t measured = 0;
+            GroundMeasures ground;
+            ground.unit = "metre";
+            ground.plane_unit = random.integer(0, 1) == 0 ? 1 : 0.3048;
+            ground.distortion = distortion;
+            const auto length = [&](Point2 a, Point2 b) {  // scale changes from south to north
+                const double scale = 1 + distortion * std::sin((a.y + b.y) / 300);
+                return ground.plane_unit * std::hypot(b.x - a.x, b.y - a.y) / scale;
+            };
+            ground.length_function = [&](Point2 a, Point2 b) {
+                ++measured;
+                return length(a, b);
+            };
+            const double limit = static_cast<double>(random.integer(10, 100));
+            std::vector<bool> expected(tin.mesh.slot_count());
+            for (std::uint32_t f = 0; f < tin.mesh.slot_count(); ++f) {
+                expected[f] = tin.mesh.is_terrain({f});
+                for (unsigned i = 0; i < 3 && tin.mesh.is_terrain({f}); ++i) {
+                    const Point3 a = tin.position(tin.mesh.vertex({f}, i));
+                    const Point3 b = tin.position(tin.mesh.vertex({f}, next_corner(i)));
+                    expected[f] = expected[f] && length({a.x, a.y}, {b.x, b.y}) <= limit;
+                }
+            }
+            const std::size_t faces = tin.mesh.count_terrain();
+            drop_long_faces(tin, limit, {}, ground);
+            for (std::uint32_t f = 0; f < tin.mesh.slot_count(); ++f) {
+                CHECK(tin.mesh.is_terrain({f}) == expected[f]);
+            }
+            CHECK(measured < faces / 2);  // of three edges a face; none of most
+        }
+    }
+
+    TEST_CASE("where nothing is known of how lengths differ, all edges are measured") {
+        Random random(5);
+        Tin tin = delaunay_tin(some_keys(random, 100, 1000));
+        GroundMeasures ground;
+        ground.distortion = 7;
+        ground.length_function = [](Point2, Point2) { return 3.0; };
+        CHECK(drop_long_faces(tin, 3, {}, ground) == 0);
+        CHECK(drop_long_faces(tin, 2.5, {}, ground) > 0);
+        CHECK(tin.mesh.count_terrain() == 0);
+    }
+
     TEST_CASE("every border edge gets constrained, and no other") {
         Random random(4);
         Tin tin = delaunay_tin(some_keys(random, 200, 1000));

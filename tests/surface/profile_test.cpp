@@ -268,6 +268,44 @@ TEST_SUITE("surface/profile") {
               "a step of 1e-09 makes more than 100 million points of a line 4 long: choose a longer --step");
     }
 
+    TEST_CASE("chainages and steps are those of the ground where that is given") {
+        const Tin tin = squares_with_gaps();
+        const ProfileCutter cutter(tin);
+        ProfileOptions options{.step = 0.7};
+        options.ground.length_function = [](Point2 a, Point2 b) {  // by the integral of a scale over x
+            const double mean = 1 + 0.02 * (a.x + b.x) / 2;
+            return 3 * mean * std::hypot(b.x - a.x, b.y - a.y);
+        };
+        for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+            CAPTURE(seed);
+            Random random(seed);
+            std::vector<Point2> line;
+            for (int i = 0; i < 4; ++i) {
+                line.push_back({static_cast<double>(random.integer(-3000, 20000)) / 1000,
+                                static_cast<double>(random.integer(-3000, 13000)) / 1000});
+            }
+            double start = 0;
+            double last = 0;
+            std::size_t steps = 0;
+            std::size_t segment = 0;
+            for (const ProfilePoint& point : cutter.cut(line, options)) {
+                const double on_the_way = start + options.ground.length(line[segment], point.position);
+                CHECK(point.chainage == doctest::Approx(on_the_way).epsilon(1e-9));
+                CHECK(std::abs(point.chainage - on_the_way) < 1e-6);
+                CHECK(point.chainage >= last);
+                last = point.chainage;
+                if (point.position == line[segment + 1]) {
+                    start = on_the_way;
+                    segment = std::min(segment + 1, line.size() - 2);
+                }
+                const double steps_behind = point.chainage / options.step;
+                steps += std::abs(steps_behind - std::round(steps_behind)) < 1e-12 * steps_behind ? 1U : 0U;
+            }
+            CHECK(steps == static_cast<std::size_t>(last / options.step));
+            CHECK(last == doctest::Approx(options.ground.length(line)));
+        }
+    }
+
     TEST_CASE("the elevations of a profile are those of the planes it crosses") {
         const Tin tin = squares_with_gaps();
         const auto surface = make_linear(tin);

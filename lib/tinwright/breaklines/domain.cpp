@@ -105,16 +105,27 @@ std::size_t apply_domain(Tin& tin, const DomainRule& rule) {
     return 0;
 }
 
-std::size_t drop_long_faces(Tin& tin, double length, const std::vector<bool>& is_kept) {
-    const double limit = squared_in_keys(tin.lattice, length);
+std::size_t drop_long_faces(Tin& tin, double length, const std::vector<bool>& is_kept,
+                            const GroundMeasures& ground) {
+    const PlaneBand band = ground.band_around(length);
+    const double shorter = squared_in_keys(tin.lattice, band.shorter);
+    const double longer =
+        std::isfinite(band.longer) ? squared_in_keys(tin.lattice, band.longer) : band.longer;
+    const auto is_long = [&](HalfEdgeId h) {
+        const double squared = squared_length(tin, h);
+        if (squared <= shorter || squared > longer) {
+            return squared > longer;
+        }
+        const Point3 a = tin.position(tin.mesh.origin(h));
+        const Point3 b = tin.position(tin.mesh.destination(h));
+        return ground.length({a.x, a.y}, {b.x, b.y}) > length;
+    };
     std::size_t dropped = 0;
     for (std::uint32_t f = 0; f < tin.mesh.slot_count(); ++f) {
         if (!tin.mesh.is_terrain({f}) || (!is_kept.empty() && is_kept[f])) {
             continue;
         }
-        if (squared_length(tin, half_edge({f}, 0)) > limit ||
-            squared_length(tin, half_edge({f}, 1)) > limit ||
-            squared_length(tin, half_edge({f}, 2)) > limit) {
+        if (is_long(half_edge({f}, 0)) || is_long(half_edge({f}, 1)) || is_long(half_edge({f}, 2))) {
             tin.mesh.set_terrain({f}, false);
             ++dropped;
         }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tinwright/breaklines/breakline.hpp"
+#include "tinwright/geometry/ground_measures.hpp"
 #include "tinwright/mesh/tin.hpp"
 
 /// Which faces are terrain. Decided on the Delaunay TIN, before anything is optimised.
@@ -52,10 +53,12 @@ std::vector<bool> find_water_faces(const Tin& tin, std::span<const Breakline> li
 /// vertex numbering up to exact ties, which break on vertex ids.
 std::size_t apply_domain(Tin& tin, const DomainRule& rule);
 
-/// Marks every terrain face with an edge longer than `length` (CRS units, > 0) as outside: voids without
-/// data. Samples may be left without a face. `is_kept`: faces that stay whatever their edges, water say;
-/// empty: none. O(n).
-std::size_t drop_long_faces(Tin& tin, double length, const std::vector<bool>& is_kept = {});
+/// Marks every terrain face with an edge longer on the ground than `length` (`ground.unit`, > 0) as outside:
+/// voids without data. Samples may be left without a face. `is_kept`: faces that stay whatever their edges,
+/// water say; empty: none. O(n); only edges whose length in the plane is within `ground.distortion` of the
+/// limit are measured by its function.
+std::size_t drop_long_faces(Tin& tin, double length, const std::vector<bool>& is_kept = {},
+                            const GroundMeasures& ground = {});
 
 /// Constrains every border edge of the domain, so that nothing done later moves it. O(n).
 void constrain_border(Tin& tin);

@@ -1,11 +1,26 @@
 #include "tinwright/geometry/ground_measures.hpp"
 
 #include <cmath>
+#include <limits>
 
 namespace tinwright {
 
 double GroundMeasures::length(Point2 a, Point2 b) const {
     return length_function ? length_function(a, b) : std::hypot(b.x - a.x, b.y - a.y);
+}
+
+PlaneBand GroundMeasures::band_around(double length) const {
+    const double of_plane = length / plane_unit;
+    if (!is_geodesic()) {
+        return {of_plane, of_plane};
+    }
+    constexpr double kRounding = 1e-9;  // of projections and geodesics, far above what they are off by
+    if (!(distortion < 0.5)) {
+        return {0, std::numeric_limits<double>::infinity()};
+    }
+    // Whichever of the two lengths `distortion` is taken as a part of.
+    const double part = distortion / (1 - distortion) + kRounding;
+    return {of_plane * (1 - part), of_plane * (1 + part)};
 }
 
 double GroundMeasures::area(std::span<const Point2> ring) const {

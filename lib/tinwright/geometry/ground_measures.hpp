@@ -9,6 +9,12 @@
 
 namespace tinwright {
 
+/// Lengths of the plane, CRS units, between which lengths on the ground may be either side of a limit.
+struct PlaneBand {
+    double shorter = 0;  ///< up to it what the plane measures is shorter than the limit on the ground as well
+    double longer = 0;   ///< beyond it, longer
+};
+
 /// Lengths and areas that people read, of what lies in the plane that is worked in. As it is made they are
 /// those of the plane; where the plane only stands for a part of the earth, whoever knows of it puts
 /// functions here that measure on the ellipsoid. May be called from several threads at a time.
@@ -22,10 +28,14 @@ struct GroundMeasures {
     std::string unit{};
     /// A bound on how far lengths of the plane, in `unit`, are off, as a part of them, over the data.
     double distortion = 0;
+    double plane_unit = 1;  ///< one CRS unit of the plane in `unit`
 
     /// Whether lengths are others than the plane's.
     [[nodiscard]] bool is_geodesic() const { return static_cast<bool>(length_function); }
     [[nodiscard]] double length(Point2 a, Point2 b) const;
+    /// Where only `length_function` can tell whether something is longer than `length`; without such a
+    /// function there is no such place.
+    [[nodiscard]] PlaneBand band_around(double length) const;
     /// Never negative.
     [[nodiscard]] double area(std::span<const Point2> ring) const;
     /// Along a line.

@@ -268,7 +268,8 @@ Triangulated triangulate_here(std::span<const Point3> samples, std::span<const B
     }
     const auto voids_start = Clock::now();
     if (options.max_edge) {
-        report.domain.void_faces = drop_long_faces(tin, *options.max_edge, find_water_faces(tin, lines));
+        report.domain.void_faces =
+            drop_long_faces(tin, *options.max_edge, find_water_faces(tin, lines), options.ground);
         constrain_border(tin);
     }
     report.faces = tin.mesh.slot_count() - report.hull_vertices - report.domain.cut_faces -

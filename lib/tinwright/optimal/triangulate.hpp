@@ -13,6 +13,7 @@
 #include "tinwright/delaunay/conforming_delaunay.hpp"
 #include "tinwright/delaunay/constrained_tin.hpp"
 #include "tinwright/delaunay/sample_vertices.hpp"
+#include "tinwright/geometry/ground_measures.hpp"
 #include "tinwright/geometry/progress.hpp"
 #include "tinwright/mesh/tin.hpp"
 #include "tinwright/optimal/data_dependent.hpp"
@@ -29,7 +30,8 @@ struct TriangulateOptions {
     /// Makes the triangulation conform to the lines by Steiner points; empty: constrained Delaunay.
     std::optional<ConformingOptions> conforming;
     DomainRule domain;
-    std::optional<double> max_edge;  ///< faces with a longer edge (CRS units) are voids
+    std::optional<double> max_edge;  ///< faces with a longer edge (`ground.unit`) are voids
+    GroundMeasures ground{};         ///< what `max_edge` is measured by
     /// Makes the TIN optimal after the domain is decided; empty: it stays Delaunay.
     std::optional<OptimizeOptions> optimize;
     /// Instead of the former: flips edges to where the elevations ask for less of a crease.

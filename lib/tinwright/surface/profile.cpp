@@ -132,7 +132,36 @@ class ProfileMaker {
     }
 
     [[nodiscard]] double distance(Key2 a, Key2 b) const {
-        return std::hypot(b.x - a.x, b.y - a.y) / steps_per_unit_;
+        return options_.ground.is_geodesic()
+                   ? options_.ground.length(faces_.lattice.position(a), faces_.lattice.position(b))
+                   : std::hypot(b.x - a.x, b.y - a.y) / steps_per_unit_;
+    }
+
+    /// The part of the way from one place to another, `length` apart, after which `wanted` of it lies behind.
+    /// In the plane the same everywhere; on the ground by secants, which start from that, or from the part
+    /// that the step before missed.
+    [[nodiscard]] double part_at(Key2 from, Key2 to, double wanted, double length) const {
+        const double part = wanted / length;
+        if (!options_.ground.is_geodesic()) {
+            return part;
+        }
+        constexpr double kNear = 1e-7;  // of a unit on the ground, and no nearer than doubles tell
+        constexpr int kMostSteps = 50;
+        const Point2 a = faces_.lattice.position(from);
+        const Point2 b = faces_.lattice.position(to);
+        const double tolerance = std::max(kNear, 4e-16 * length);
+        double found = part + last_miss_;
+        for (int i = 0; i < kMostSteps; ++i) {
+            const Point2 at{a.x + found * (b.x - a.x), a.y + found * (b.y - a.y)};
+            const double off = wanted - options_.ground.length(a, at);
+            if (!(std::abs(off) > tolerance)) {  // or it cannot be measured
+                break;
+            }
+            found += off / length;  // scales differ little within a plane: each step gains digits
+        }
+        found = std::min(found, 1.0);
+        last_miss_ = found - part;
+        return found;
     }
 
     /// From the last station, which is the segment's start.
@@ -148,7 +177,8 @@ class ProfileMaker {
             end_touch_ = smaller(end_touch_, stations_.back().touched);
             stations_.pop_back();
         }
-        stations_.push_back({to, position, start + length, Kind::Line, end_touch_, {}});
+        const double chainage = std::max(stations_.back().chainage, start + length);
+        stations_.push_back({to, position, chainage, Kind::Line, end_touch_, {}});
         end_touch_.reset();
         if (options_.step > 0) {
             add_steps(first, length);
@@ -194,11 +224,12 @@ class ProfileMaker {
                              decimal_text(start.chainage + length) + " long: choose a longer --step");
         }
         std::vector<Station> with_steps;
+        last_miss_ = 0;
         for (std::size_t i = first; i + 1 < stations_.size(); ++i) {
             Station& next = stations_[i + 1];
             with_steps.push_back(stations_[i]);
             for (double k = std::floor(stations_[i].chainage / step) + 1; k * step <= next.chainage; ++k) {
-                const double part = (k * step - start.chainage) / length;
+                const double part = part_at(start.at, to, k * step - start.chainage, length);
                 const Key2 at{std::nearbyint(start.at.x + part * (to.x - start.at.x)),
                               std::nearbyint(start.at.y + part * (to.y - start.at.y))};
                 if (at == next.at) {
@@ -222,6 +253,7 @@ class ProfileMaker {
     double steps_per_unit_;
     std::vector<Station> stations_;
     std::optional<FaceId> end_touch_;  ///< of the segment at hand
+    mutable double last_miss_ = 0;     ///< by how much `part_at` was off what the plane says
 };
 
 }  // namespace

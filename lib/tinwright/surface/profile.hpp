@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "tinwright/geometry/ground_measures.hpp"
 #include "tinwright/geometry/point.hpp"
 #include "tinwright/surface/surface_place.hpp"
 
@@ -22,8 +23,10 @@ struct ProfilePoint {
     };
     static constexpr std::uint32_t kOutside = 0xFFFFFFFFU;
 
-    Point2 position{};    ///< CRS units; of a point of the line as given
-    double chainage = 0;  ///< from the line's start along it, seen from above, CRS units
+    Point2 position{};  ///< CRS units; of a point of the line as given
+    /// From the line's start along it, seen from above, `ProfileOptions::ground.unit`: lengths of the
+    /// segments before, and that from the start of its own.
+    double chainage = 0;
     Kind kind = Kind::Line;
     /// The part of the profile that it belongs to, from 0: a new one starts wherever the line comes back to
     /// the terrain. `kOutside`: the place is not on the terrain.
@@ -37,7 +40,10 @@ struct ProfileOptions {
     /// Every edge and vertex that the line meets is a point; else only those where it enters or leaves the
     /// terrain.
     bool has_cuts = true;
-    double step = 0;  ///< distance of further points along the line, CRS units; 0: none
+    double step = 0;  ///< distance of further points along the line, `ground.unit`; 0: none
+    /// Of chainages. Points that are steps on the ground are found to 10^-7 of a unit, before they are
+    /// rounded.
+    GroundMeasures ground{};
 };
 
 /// Lays lines over the terrain of a TIN, whatever its shape: with holes, voids, or of several parts.
