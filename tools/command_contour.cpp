@@ -92,6 +92,22 @@ Contours CommandContour::make(const Surface& surface, Console& console) const {
     return contour(surface.tin, options);
 }
 
+io::WrittenContours CommandContour::write(const Contours& made, const Surface& surface,
+                                          const io::WriteContoursOptions& options) const {
+    const io::OutputPositions positions = surface.output_positions();
+    const io::Crs& crs_written = surface.output_crs;
+    if (contours.is_bands) {
+        return positions.is_identity()
+                   ? io::write_bands(made.bands, crs_written, output.path, options)
+                   : io::write_bands(io::written_bands(made.bands, positions), crs_written, output.path,
+                                     options);
+    }
+    return positions.is_identity()
+               ? io::write_contours(made.levels, made.lines, crs_written, output.path, options)
+               : io::write_contours(made.levels, io::written_lines(made.lines, positions), crs_written,
+                                    output.path, options);
+}
+
 void CommandContour::warn_about(const Contours& made, Console& console) const {
     if (made.levels.empty()) {
         console.warn("none of the levels lies between the lowest and the highest elevation, " +
@@ -131,16 +147,14 @@ Outcome CommandContour::run() {
     auto start = Clock::now();
     const Contours made = make(surface, console);
     JobReport report;
-    report.contours = summarize(made, interpolation.method_text);
+    report.contours = summarize(made, surface.ground, interpolation.method_text);
     report.contours->seconds = seconds_since(start);
 
     options.metadata = output_metadata("contour", surface, triangulation, lines,
                                        interpolation.canonical() + " " + contours.canonical());
     options.progress = console.progress().stage(0.8, 1);
     start = Clock::now();
-    const io::WrittenContours written =
-        contours.is_bands ? io::write_bands(made.bands, surface.crs, output.path, options)
-                          : io::write_contours(made.levels, made.lines, surface.crs, output.path, options);
+    const io::WrittenContours written = write(made, surface, options);
     if (surface.conflicts) {
         surface.conflicts->commit();
     }

@@ -45,6 +45,8 @@ class CommandContour : public Command {
   private:
     [[nodiscard]] io::WriteContoursOptions write_options() const;
     [[nodiscard]] Contours make(const Surface& surface, Console& console) const;
+    [[nodiscard]] io::WrittenContours write(const Contours& made, const Surface& surface,
+                                            const io::WriteContoursOptions& options) const;
     void warn_about(const Contours& made, Console& console) const;
 };
 

@@ -30,6 +30,22 @@ constexpr auto kGeometries =
                                                           {"edges", Geometry::Edges},
                                                           {"vertices", Geometry::Vertices}});
 
+/// As a file's metadata name it: by code, or by WKT where there is none.
+std::string recorded_crs(const io::Crs& crs) { return crs.code().empty() ? crs.wkt() : crs.code(); }
+
+void move_graph(std::vector<io::GraphLine>& edges, const io::OutputPositions& positions) {
+    std::vector<Point3> ends;
+    for (const io::GraphLine& edge : edges) {
+        ends.push_back(edge.from);
+        ends.push_back(edge.to);
+    }
+    positions.apply_to(ends);
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+        edges[i].from = ends[2 * i];
+        edges[i].to = ends[2 * i + 1];
+    }
+}
+
 }  // namespace
 
 void CommandTin::setup(const std::vector<std::string>& arguments) {
@@ -146,15 +162,19 @@ Outcome CommandTin::run_graph(Console& console) {
     auto start = Clock::now();
     std::vector<io::GraphLine> edges;
     run_with_threads(triangulation.threads, [&] {
-        edges = make_sample_graph(surface.tin, graph, console.progress().stage(0.5, 0.7));
+        edges = make_sample_graph(surface.tin, graph, surface.ground, console.progress().stage(0.5, 0.7));
     });
     JobReport report;
     report.graph = summarize(edges, graph);
-    report.graph->unit = surface.crs.unit().empty() ? kUnknownLengthUnit : surface.crs.unit();
+    const bool is_geodesic = surface.ground.is_geodesic() && graph.norm.is_euclidean();
+    report.graph->unit = is_geodesic                   ? surface.ground.unit
+                         : surface.crs.unit().empty() ? kUnknownLengthUnit
+                                                      : surface.crs.unit();
     report.graph->seconds = seconds_since(start);
     options.progress = console.progress().stage(0.7, 1);
     start = Clock::now();
-    const io::WrittenGraph written = io::write_graph(edges, surface.crs, output.path, options);
+    move_graph(edges, surface.output_positions());
+    const io::WrittenGraph written = io::write_graph(edges, surface.output_crs, output.path, options);
     report.write_seconds = seconds_since(start);
     console.progress().finish();
     for (const std::string& warning : written.warnings) {
@@ -207,11 +227,18 @@ Outcome CommandTin::run_tin(Console& console) {
         options.metadata.insert(options.metadata.end(), flat.begin(), flat.end());
     }
     options.is_water_face = surface.is_water_face;
+    options.ground = surface.ground;
+    if (!surface.is_written_in_plane()) {
+        run_with_threads(triangulation.threads, [&] {
+            options.positions = io::written_vertices(surface.tin, surface.output_positions());
+        });
+        options.metadata.emplace_back("TINWRIGHT_WORKING_CRS", recorded_crs(surface.crs));
+    }
     options.origins = std::move(surface.origins.vertices);
     options.lines = std::move(surface.origins.lines);
     options.progress = console.progress().stage(0.7, 1);
     const auto start = Clock::now();
-    const io::WrittenTin written = io::write_tin(surface.tin, surface.crs, output.path, options);
+    const io::WrittenTin written = io::write_tin(surface.tin, surface.output_crs, output.path, options);
     if (surface.conflicts) {
         surface.conflicts->commit();
     }

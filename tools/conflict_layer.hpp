@@ -33,7 +33,8 @@ std::string conflict_text(const LineConflict& conflict, const ConflictOrigins& o
 /// Throws UsageError when no vector driver fits the target. `driver`: empty for the one of the extension.
 void check_conflict_target(const std::string& target, const std::string& driver = "");
 
-/// Writes the layer `conflicts`, fields as in docs/formats.md, empty when there are none. The file is
+/// Writes the layer `conflicts`, fields as in docs/formats.md, empty when there are none. `crs`: of their
+/// locations. The file is
 /// complete but under its temporary name: `commit` moves it into place. Throws UsageError, IoError.
 std::unique_ptr<io::AtomicOutput> write_conflicts(std::span<const LineConflict> conflicts,
                                                   const ConflictOrigins& origins, const io::Crs& crs,

@@ -1,7 +1,6 @@
 #include "contour_report.hpp"
 
 #include <array>
-#include <cmath>
 #include <cstdio>
 
 #include "tinwright/geometry/decimal.hpp"
@@ -20,21 +19,21 @@ std::string short_text(double value) {
     return text.data();
 }
 
-void add_lines(const LevelLines& lines, ContourReport& report) {
+void add_lines(const LevelLines& lines, const GroundMeasures& ground, ContourReport& report) {
     report.lines += lines.count();
     report.points += lines.points.size();
     for (std::size_t i = 0; i < lines.count(); ++i) {
         const auto points = lines.line(i);
         report.closed += points.front() == points.back() ? 1U : 0U;
         for (std::size_t k = 1; k < points.size(); ++k) {
-            report.length += std::hypot(points[k].x - points[k - 1].x, points[k].y - points[k - 1].y);
+            report.length += ground.length(points[k - 1], points[k]);
         }
     }
 }
 
 }  // namespace
 
-ContourReport summarize(const Contours& contours, const std::string& method) {
+ContourReport summarize(const Contours& contours, const GroundMeasures& ground, const std::string& method) {
     ContourReport report;
     report.method = method;
     report.tracing = contours.tracing;
@@ -44,7 +43,7 @@ ContourReport summarize(const Contours& contours, const std::string& method) {
         report.highest = contours.levels.back().elevation;
     }
     for (const LevelLines& lines : contours.lines) {
-        add_lines(lines, report);
+        add_lines(lines, ground, report);
     }
     report.is_bands = !contours.bands.empty();
     for (const Band& band : contours.bands) {

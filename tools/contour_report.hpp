@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "tinwright/geometry/ground_measures.hpp"
 #include "tinwright/surface/contouring.hpp"
 
 #include "json_value.hpp"
@@ -21,13 +22,13 @@ struct ContourReport {
     std::size_t closed = 0;  ///< lines
     std::size_t polygons = 0;
     std::size_t points = 0;
-    double length = 0;  ///< of all lines, CRS units
+    double length = 0;  ///< of all lines, on the ground
     std::string method;
     std::optional<TracingReport> tracing;
     double seconds = 0;
 };
 
-ContourReport summarize(const Contours& contours, const std::string& method);
+ContourReport summarize(const Contours& contours, const GroundMeasures& ground, const std::string& method);
 
 /// The object `contours` of docs/json.md.
 JsonValue contours_json(const ContourReport& report);

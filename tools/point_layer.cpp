@@ -6,11 +6,12 @@ namespace tinwright::tools {
 
 namespace {
 
-io::WriteTinOptions layer_options(const io::TinDriver& driver, const io::TinMetadata& metadata) {
+io::WriteTinOptions layer_options(const io::TinDriver& driver, const io::Crs& crs,
+                                  const io::TinMetadata& metadata) {
     io::WriteTinOptions options;
     options.metadata = metadata;
     if (driver.name.starts_with("GeoJSON")) {
-        options.layer_options = {"COORDINATE_PRECISION=9"};
+        options.layer_options = {crs.is_geographic() ? "COORDINATE_PRECISION=12" : "COORDINATE_PRECISION=9"};
     }
     return options;
 }
@@ -27,7 +28,7 @@ PointLayer::PointLayer(const std::string& target, const std::string& driver, boo
     : shape_(shape),
       driver_(io::find_tin_driver(target, driver)),
       crs_(std::move(crs)),
-      options_(layer_options(driver_, metadata)),
+      options_(layer_options(driver_, crs_, metadata)),
       output_(std::make_unique<io::AtomicOutput>(target, overwrite)),
       dataset_(driver_, output_->path(), target, crs_, options_),
       layer_(dataset_.add_layer(layer, shape == Shape::Flat ? wkbPoint : wkbPoint25D, fields, Tin{})) {}

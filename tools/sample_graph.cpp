@@ -36,11 +36,16 @@ std::string length_text(double length) {
 }  // namespace
 
 std::vector<io::GraphLine> make_sample_graph(const Tin& tin, const GraphOptions& options,
-                                             const Progress& progress) {
+                                             const GroundMeasures& ground, const Progress& progress) {
+    const bool is_on_ground = ground.is_geodesic() && options.norm.is_euclidean();
     std::vector<io::GraphLine> lines;
     for (const GraphEdge& edge : make_edges(tin, options, progress)) {
-        lines.push_back({tin.position(edge.a), tin.position(edge.b),
-                         tin.lattice.quantum() * length(options.norm, tin.key(edge.a), tin.key(edge.b))});
+        io::GraphLine& line = lines.emplace_back();
+        line.from = tin.position(edge.a);
+        line.to = tin.position(edge.b);
+        line.length = is_on_ground
+                          ? ground.length({line.from.x, line.from.y}, {line.to.x, line.to.y})
+                          : tin.lattice.quantum() * length(options.norm, tin.key(edge.a), tin.key(edge.b));
     }
     return lines;
 }

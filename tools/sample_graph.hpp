@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "tinwright/geometry/ground_measures.hpp"
 #include "tinwright/io/write_graph.hpp"
 #include "tinwright/mesh/tin.hpp"
 
@@ -25,10 +26,10 @@ struct GraphReport {
 };
 
 /// The edges of the graph of `tin`'s vertices as lines, in the library's order, each from the vertex of the
-/// lower number. `tin`: Delaunay, without constrained edges. Parallel inside the caller's task arena.
-/// Throws Cancelled.
+/// lower number, as long as in the graph's norm, under the Euclidean one on the ground. `tin`: Delaunay,
+/// without constrained edges. Parallel inside the caller's task arena. Throws Cancelled.
 std::vector<io::GraphLine> make_sample_graph(const Tin& tin, const GraphOptions& options,
-                                             const Progress& progress);
+                                             const GroundMeasures& ground, const Progress& progress);
 
 /// Everything but the unit and the seconds.
 GraphReport summarize(const std::vector<io::GraphLine>& lines, const GraphOptions& options);

@@ -248,6 +248,9 @@ Surface triangulate_sources(const SurfaceRequest& request, Console& console) {
         request.lines->apply_to(options);
     }
     Surface surface;
+    const io::WorkingPlane& plane =
+        inputs.samples.crs.is_known() ? inputs.samples.plane : inputs.lines.plane;
+    options.ground = io::make_ground_measures(plane);
     if (has_water) {
         surface.water = level_inputs(request, inputs, console.progress().stage(read_end, triangulate_at));
     }
@@ -263,8 +266,7 @@ Surface triangulate_sources(const SurfaceRequest& request, Console& console) {
     conflicts.insert(conflicts.begin(), inputs.lines.conflicts.begin(), inputs.lines.conflicts.end());
 
     surface.z_unit = inputs.samples.z_unit.empty() ? inputs.lines.z_unit : inputs.samples.z_unit;
-    set_references(request.crs, inputs.samples.crs.is_known() ? inputs.samples.plane : inputs.lines.plane,
-                   surface);
+    set_references(request.crs, plane, surface);
     if (request.keep_origins) {
         surface.origins = make_tin_origins(made.tin, inputs.samples.slices, inputs.lines, request.keep_ids);
         surface.source_names = name_sources(made.tin, surface.origins, inputs);
@@ -272,8 +274,13 @@ Surface triangulate_sources(const SurfaceRequest& request, Console& console) {
     if (request.lines != nullptr) {
         surface.lines = summarize_lines(*request.lines, inputs.lines, made.tin, made.report);
         if (!request.lines->conflicts.empty()) {
-            surface.conflicts = write_conflicts(conflicts, {inputs.lines, inputs.samples}, surface.crs,
-                                                request.lines->conflicts, request.overwrite_conflicts);
+            const io::OutputPositions positions(surface.crs, surface.output_crs, made.report.bounds);
+            for (LineConflict& conflict : conflicts) {
+                conflict.location = positions.transform(conflict.location);
+            }
+            surface.conflicts =
+                write_conflicts(conflicts, {inputs.lines, inputs.samples}, surface.output_crs,
+                                request.lines->conflicts, request.overwrite_conflicts);
         }
     }
     for (const Breakline& line : inputs.lines.lines) {
@@ -346,7 +353,7 @@ Surface read_existing_tin(const SurfaceRequest& request, Console& console) {
     surface.tin_layer = std::move(file.layer);
     if (request.triangulation.max_edge) {
         surface.void_faces =
-            drop_long_faces(surface.tin, *request.triangulation.max_edge, surface.is_water_face);
+            drop_long_faces(surface.tin, *request.triangulation.max_edge, surface.is_water_face, surface.ground);
     }
     surface.read_seconds = seconds_since(start);
     return surface;

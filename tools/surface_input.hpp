@@ -9,6 +9,7 @@
 
 #include "tinwright/geometry/ground_measures.hpp"
 #include "tinwright/io/atomic_output.hpp"
+#include "tinwright/io/output_positions.hpp"
 #include "tinwright/io/read_samples.hpp"
 #include "tinwright/io/write_tin.hpp"
 #include "tinwright/mesh/tin.hpp"
@@ -37,6 +38,10 @@ struct SourceName {
 struct Surface {
     /// Whether what is written has the positions of the TIN.
     [[nodiscard]] bool is_written_in_plane() const { return output_crs.is_same_horizontally(crs); }
+    /// Of samples, or of what is read from a file; in the plane.
+    [[nodiscard]] Box bounds() const { return report ? report->bounds : tin.bounds(); }
+    /// The way from the plane to what is written. Throws InputError.
+    [[nodiscard]] io::OutputPositions output_positions() const { return {crs, output_crs, bounds()}; }
 
     Tin tin;
     io::Crs crs;             ///< of the TIN's plane; may be unknown

@@ -115,6 +115,10 @@ KeptFeature probe_features(const TinDriver& driver, const std::string& target, c
     return kept;
 }
 
+Point3 probe_point(const Crs& crs, double east, double north, double z) {
+    return crs.is_geographic() ? Point3{5 + east, 60 + north, z} : Point3{500010 + east, 6700020 + north, z};
+}
+
 void refuse_lost_elevations(const TinDriver& driver, const char* subject) {
     throw UsageError(refusal_of(driver) + "loses the elevations of " + subject + "; " + kAlternatives);
 }

@@ -53,6 +53,10 @@ struct ProbeFeature {
     std::function<bool(const OGRFeature&)> has_fields;
 };
 
+/// A place for probes: `(east, north)` metres from the middle of a UTM zone at 60 degrees north, or as many
+/// degrees from 5 east and 60 north.
+Point3 probe_point(const Crs& crs, double east, double north, double z);
+
 /// What came back of it.
 struct KeptFeature {
     bool positions = false;  ///< to within a thousandth of a unit

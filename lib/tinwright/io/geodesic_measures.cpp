@@ -84,6 +84,7 @@ GroundMeasures make_geodesic_measures(const Crs& plane) {
     measures.length_function = [ellipsoid](Point2 a, Point2 b) { return ellipsoid->length(a, b); };
     measures.area_function = [ellipsoid](std::span<const Point2> ring) { return ellipsoid->area(ring); };
     measures.unit = "metre";
+    measures.plane_unit = plane.metres_per_unit();
     measures.distortion = std::numeric_limits<double>::infinity();
     return measures;
 }

@@ -94,10 +94,10 @@ int significant_digits_of(double value) {
 }
 
 template <class Measure>
-int largest(const Tin& tin, int stop, const Measure& measure) {
+int largest(const Tin& tin, const WriteTinOptions& options, int stop, const Measure& measure) {
     int most = 0;
     for (std::uint32_t v = 0; v < tin.vertex_count() && most <= stop; ++v) {
-        const Point3 p = tin.position({v});
+        const Point3 p = written_position(tin, options, {v});
         most = std::max({most, measure(p.x), measure(p.y), measure(p.z)});
     }
     return most;
@@ -126,7 +126,7 @@ void add_geojson_options(std::vector<std::string>& list, const Tin& tin, const C
     if (!has_option(given, "COORDINATE_PRECISION") && !has_option(given, "SIGNIFICANT_FIGURES")) {
         // GDAL cuts a last digit off that follows five zeros or nines, which up to five decimals cannot.
         constexpr int kSafeDecimals = 5;
-        const int decimals = largest(tin, kSafeDecimals, decimals_of);
+        const int decimals = largest(tin, options, kSafeDecimals, decimals_of);
         list.push_back(decimals <= kSafeDecimals ? "COORDINATE_PRECISION=" + std::to_string(decimals)
                                                  : std::string("SIGNIFICANT_FIGURES=17"));
     }
@@ -223,8 +223,17 @@ std::string json_of(const TinMetadata& metadata) {
     return json;
 }
 
-bool needs_more_digits(const Tin& tin, int digits) {
-    return largest(tin, digits, significant_digits_of) > digits;
+Point3 written_position(const Tin& tin, const WriteTinOptions& options, VertexId v) {
+    Point3 p = tin.position(v);
+    if (!options.positions.empty()) {
+        p.x = options.positions[v.value].x;
+        p.y = options.positions[v.value].y;
+    }
+    return p;
+}
+
+bool needs_more_digits(const Tin& tin, const WriteTinOptions& options, int digits) {
+    return largest(tin, options, digits, significant_digits_of) > digits;
 }
 
 const OGRSpatialReference& undefined_cartesian_system() {

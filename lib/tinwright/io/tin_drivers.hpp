@@ -49,8 +49,11 @@ bool writes_own_wkt(const TinDriver& driver, const WriteTinOptions& options);
 /// `metadata` as one JSON object of strings.
 std::string json_of(const TinMetadata& metadata);
 
+/// Where a vertex is in the CRS that is written.
+Point3 written_position(const Tin& tin, const WriteTinOptions& options, VertexId v);
+
 /// Whether some coordinate or elevation needs more than `digits` significant decimal digits. O(n).
-bool needs_more_digits(const Tin& tin, int digits);
+bool needs_more_digits(const Tin& tin, const WriteTinOptions& options, int digits);
 
 /// A coordinate reference system as GeoPackage wants an unknown one: srs_id -1.
 const OGRSpatialReference& undefined_cartesian_system();

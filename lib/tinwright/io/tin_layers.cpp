@@ -49,6 +49,15 @@ Incline incline_of(const Tin& tin, const std::array<VertexId, 3>& v) {
     return incline;
 }
 
+std::array<Point2, 3> corners_in_plane(const Tin& tin, const std::array<VertexId, 3>& v) {
+    std::array<Point2, 3> corners{};
+    std::transform(v.begin(), v.end(), corners.begin(), [&](VertexId vertex) {
+        const Point3 p = tin.position(vertex);
+        return Point2{p.x, p.y};
+    });
+    return corners;
+}
+
 int as_int(VertexId v) { return static_cast<int>(v.value); }
 
 // Which of two lines along an edge is told: one of water rather, for it is read from the file again; then by
@@ -119,8 +128,13 @@ void for_each_edge(const TriangleMesh& mesh, const Visit& visit) {
 
 }  // namespace
 
+bool has_water(const WriteTinOptions& options) {
+    return std::find(options.is_water_face.begin(), options.is_water_face.end(), true) !=
+           options.is_water_face.end();
+}
+
 std::size_t write_faces(TinDataset& dataset, const std::string& layer, const Tin& tin,
-                        const std::vector<bool>& is_water_face, const Tick& tick) {
+                        const WriteTinOptions& options, const Tick& tick) {
     constexpr std::array<TinField, 9> kFields = {{{"id", OFTInteger},
                                                   {"a", OFTInteger},
                                                   {"b", OFTInteger},
@@ -130,7 +144,8 @@ std::size_t write_faces(TinDataset& dataset, const std::string& layer, const Tin
                                                   {"aspect", OFTReal},
                                                   {"area", OFTReal},
                                                   {"water", OFTInteger}}};
-    const std::span<const TinField> used = std::span(kFields).first(is_water_face.empty() ? 8 : 9);
+    const bool has_field_water = has_water(options);
+    const std::span<const TinField> used = std::span(kFields).first(has_field_water ? 9 : 8);
     TinLayer faces = dataset.add_layer(layer, wkbPolygon25D, used, tin);
     auto& polygon = faces.geometry<OGRPolygon>();
     polygon.addRingDirectly(new OGRLinearRing);
@@ -144,7 +159,7 @@ std::size_t write_faces(TinDataset& dataset, const std::string& layer, const Tin
         int constrained = 0;
         for (unsigned i = 0; i < 3; ++i, corner = next_corner(corner)) {
             v[i] = tin.mesh.vertex({f}, corner);
-            p[i] = tin.position(v[i]);
+            p[i] = written_position(tin, options, v[i]);
             faces.set(1 + i, as_int(v[i]));
             constrained |= static_cast<int>(tin.mesh.is_constrained(half_edge({f}, corner))) << i;
         }
@@ -164,9 +179,10 @@ std::size_t write_faces(TinDataset& dataset, const std::string& layer, const Tin
         } else {
             faces.set(6, incline.aspect_deg);
         }
-        faces.set(7, incline.area);
-        if (!is_water_face.empty()) {
-            faces.set(8, is_water_face[f] ? 1 : 0);
+        faces.set(
+            7, options.ground.area_function ? options.ground.area(corners_in_plane(tin, v)) : incline.area);
+        if (has_field_water) {
+            faces.set(8, options.is_water_face[f] ? 1 : 0);
         }
         faces.write();
         tick();
@@ -174,7 +190,8 @@ std::size_t write_faces(TinDataset& dataset, const std::string& layer, const Tin
     return faces.written();
 }
 
-std::size_t write_surface(TinDataset& dataset, const std::string& layer, const Tin& tin, const Tick& tick) {
+std::size_t write_surface(TinDataset& dataset, const std::string& layer, const Tin& tin,
+                          const WriteTinOptions& options, const Tick& tick) {
     constexpr std::array<TinField, 2> kFields = {{{"id", OFTInteger}, {"faces", OFTInteger}}};
     TinLayer surfaces = dataset.add_layer(layer, wkbTINZ, kFields, tin);
     auto& surface = surfaces.geometry<OGRTriangulatedSurface>();
@@ -186,7 +203,7 @@ std::size_t write_surface(TinDataset& dataset, const std::string& layer, const T
         unsigned corner = first_corner(tin.mesh.face({f}));
         std::array<OGRPoint, 3> p;
         for (OGRPoint& point : p) {
-            const Point3 q = tin.position(tin.mesh.vertex({f}, corner));
+            const Point3 q = written_position(tin, options, tin.mesh.vertex({f}, corner));
             point = OGRPoint(q.x, q.y, q.z);
             corner = next_corner(corner);
         }
@@ -201,7 +218,7 @@ std::size_t write_surface(TinDataset& dataset, const std::string& layer, const T
 }
 
 std::size_t write_edges(TinDataset& dataset, const std::string& layer, const Tin& tin,
-                        std::span<const LineOrigin> lines, bool constrained_only, const Tick& tick) {
+                        const WriteTinOptions& options, bool constrained_only, const Tick& tick) {
     constexpr std::array<TinField, 9> kFields = {{{"id", OFTInteger},
                                                   {"a", OFTInteger},
                                                   {"b", OFTInteger},
@@ -221,8 +238,8 @@ std::size_t write_edges(TinDataset& dataset, const std::string& layer, const Tin
         }
         const VertexId a = std::min(tin.mesh.origin(h), tin.mesh.destination(h));
         const VertexId b = std::max(tin.mesh.origin(h), tin.mesh.destination(h));
-        const Point3 p = tin.position(a);
-        const Point3 q = tin.position(b);
+        const Point3 p = written_position(tin, options, a);
+        const Point3 q = written_position(tin, options, b);
         auto& line = edges.geometry<OGRLineString>();
         line.setPoint(0, p.x, p.y, p.z);
         line.setPoint(1, q.x, q.y, q.z);
@@ -230,7 +247,7 @@ std::size_t write_edges(TinDataset& dataset, const std::string& layer, const Tin
         edges.set(1, as_int(a));
         edges.set(2, as_int(b));
         edges.set(3, tin.mesh.is_border(h) ? 1 : 0);
-        set_line(edges, constrained ? find_line(tin, lines, a, b) : std::nullopt,
+        set_line(edges, constrained ? find_line(tin, options.lines, a, b) : std::nullopt,
                  constrained && tin.mesh.is_border(h));
         if (!constrained_only) {
             edges.set(8, constrained ? 1 : 0);
@@ -242,7 +259,8 @@ std::size_t write_edges(TinDataset& dataset, const std::string& layer, const Tin
 }
 
 std::size_t write_vertices(TinDataset& dataset, const std::string& layer, const Tin& tin,
-                           const VertexOrigins& origins, const Tick& tick) {
+                           const WriteTinOptions& options, const Tick& tick) {
+    const VertexOrigins& origins = options.origins;
     constexpr std::array<TinField, 6> kFields = {{{"id", OFTInteger},
                                                   {"steiner", OFTInteger},
                                                   {"source", OFTInteger},
@@ -251,7 +269,7 @@ std::size_t write_vertices(TinDataset& dataset, const std::string& layer, const 
                                                   {"inserted", OFTInteger}}};
     TinLayer vertices = dataset.add_layer(layer, wkbPoint25D, kFields, tin);
     for (std::uint32_t v = 0; v < tin.vertex_count(); ++v) {
-        const Point3 p = tin.position({v});
+        const Point3 p = written_position(tin, options, {v});
         auto& point = vertices.geometry<OGRPoint>();
         point.setX(p.x);
         point.setY(p.y);

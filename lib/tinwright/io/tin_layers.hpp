@@ -15,16 +15,20 @@ namespace tinwright::io {
 
 using Tick = std::function<void()>;
 
-/// `is_water_face`: by slot; empty: no field `water`.
+/// No field `water` where no face is.
 std::size_t write_faces(TinDataset& dataset, const std::string& layer, const Tin& tin,
-                        const std::vector<bool>& is_water_face, const Tick& tick);
-std::size_t write_surface(TinDataset& dataset, const std::string& layer, const Tin& tin, const Tick& tick);
+                        const WriteTinOptions& options, const Tick& tick);
+std::size_t write_surface(TinDataset& dataset, const std::string& layer, const Tin& tin,
+                          const WriteTinOptions& options, const Tick& tick);
 /// All edges of terrain faces, or the constrained ones only. Of several lines along an edge the first by
 /// source and feature is told, lines of water before others.
 std::size_t write_edges(TinDataset& dataset, const std::string& layer, const Tin& tin,
-                        std::span<const LineOrigin> lines, bool constrained_only, const Tick& tick);
+                        const WriteTinOptions& options, bool constrained_only, const Tick& tick);
 std::size_t write_vertices(TinDataset& dataset, const std::string& layer, const Tin& tin,
-                           const VertexOrigins& origins, const Tick& tick);
+                           const WriteTinOptions& options, const Tick& tick);
+
+/// Whether any face is water.
+bool has_water(const WriteTinOptions& options);
 
 /// Edges of terrain faces, and how many of them are constrained. O(slots).
 struct EdgeCounts {

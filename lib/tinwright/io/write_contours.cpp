@@ -1,5 +1,6 @@
 #include "tinwright/io/write_contours.hpp"
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <utility>
@@ -82,18 +83,23 @@ std::size_t fill_bands(TinDataset& dataset, const WriteContoursOptions& options,
     return layer.written();
 }
 
-/// A square in the middle of a UTM zone, at an elevation with decimals.
+/// A square at an elevation with decimals.
 constexpr double kElevation = -12.75;
-constexpr std::array<Point3, 5> kSquare{{{500010.125, 6700020.25, kElevation},
-                                         {500011.625, 6700020.25, kElevation},
-                                         {500011.625, 6700021.5, kElevation},
-                                         {500010.125, 6700021.5, kElevation},
-                                         {500010.125, 6700020.25, kElevation}}};
+using ProbeSquare = std::array<Point3, 5>;
 
-FillFeatures probe_fill(const WriteContoursOptions& options, bool is_bands) {
+ProbeSquare probe_square(const Crs& crs) {
+    constexpr std::array<Point2, 5> kCorners{
+        {{0.125, 0.25}, {1.625, 0.25}, {1.625, 1.5}, {0.125, 1.5}, {0.125, 0.25}}};
+    ProbeSquare square{};
+    std::transform(kCorners.begin(), kCorners.end(), square.begin(),
+                   [&](Point2 p) { return probe_point(crs, p.x, p.y, kElevation); });
+    return square;
+}
+
+FillFeatures probe_fill(const WriteContoursOptions& options, const ProbeSquare& points, bool is_bands) {
     std::vector<Point2> square;
-    square.reserve(kSquare.size());
-    for (const Point3& p : kSquare) {
+    square.reserve(points.size());
+    for (const Point3& p : points) {
         square.push_back({p.x, p.y});
     }
     if (is_bands) {
@@ -125,8 +131,10 @@ KeptFeature probe(const TinDriver& driver, const std::string& target, const Crs&
                               has_field_value(feature, "elev_max", kElevation + 1)
                         : has_field_value(feature, "elev", kElevation);
     };
-    const KeptFeature kept = probe_features(driver, target, crs, dataset_options_of(driver, options),
-                                            {kSubject, probe_fill(quiet, is_bands), kSquare, has_fields});
+    const ProbeSquare square = probe_square(crs);
+    const KeptFeature kept =
+        probe_features(driver, target, crs, dataset_options_of(driver, options),
+                       {kSubject, probe_fill(quiet, square, is_bands), square, has_fields});
     if (!kept.fields && (is_bands || !kept.z)) {
         refuse_lost_elevations(driver, kSubject);
     }

@@ -12,9 +12,10 @@
 namespace tinwright::io {
 namespace {
 
-/// In the middle of a UTM zone, with decimals and unlike elevations.
-constexpr GraphLine kProbe{{500010.125, 6700020.25, -12.75}, {500011.625, 6700021.5, 103.5}, 1.953125};
-constexpr std::array<Point3, 2> kProbePoints{kProbe.from, kProbe.to};
+/// With decimals and unlike elevations.
+GraphLine probe_line(const Crs& crs) {
+    return {probe_point(crs, 0.125, 0.25, -12.75), probe_point(crs, 1.625, 1.5, 103.5), 1.953125};
+}
 
 std::size_t fill(TinDataset& dataset, const std::string& layer_name, std::span<const GraphLine> lines,
                  const Progress& progress) {
@@ -42,14 +43,16 @@ WriteTinOptions dataset_options_of(const TinDriver& driver, const WriteGraphOpti
 KeptFeature probe(const TinDriver& driver, const std::string& target, const Crs& crs,
                   const WriteGraphOptions& options) {
     constexpr const char* kSubject = "graphs";
-    const auto fill_probe = [&options](TinDataset& dataset) {
-        return fill(dataset, options.layer_name, std::span(&kProbe, 1), nullptr);
+    const GraphLine line = probe_line(crs);
+    const std::array<Point3, 2> points{line.from, line.to};
+    const auto fill_probe = [&](TinDataset& dataset) {
+        return fill(dataset, options.layer_name, std::span(&line, 1), nullptr);
     };
-    const auto has_length = [](const OGRFeature& feature) {
-        return has_field_value(feature, "length", kProbe.length);
+    const auto has_length = [&](const OGRFeature& feature) {
+        return has_field_value(feature, "length", line.length);
     };
     const KeptFeature kept = probe_features(driver, target, crs, dataset_options_of(driver, options),
-                                            {kSubject, fill_probe, kProbePoints, has_length});
+                                            {kSubject, fill_probe, points, has_length});
     if (!kept.z) {
         refuse_lost_elevations(driver, kSubject);
     }

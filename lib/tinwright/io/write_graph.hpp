@@ -17,7 +17,7 @@ namespace tinwright::io {
 struct GraphLine {
     Point3 from;
     Point3 to;
-    double length = 0;  ///< in the graph's norm, CRS units
+    double length = 0;  ///< in the graph's norm, CRS units, or on the ground
 };
 
 struct WriteGraphOptions {

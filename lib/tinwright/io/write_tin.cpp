@@ -73,11 +73,6 @@ TinMetadata counts_of(const Tin& tin) {
             {"TINWRIGHT_FACES", std::to_string(tin.mesh.count_terrain())}};
 }
 
-bool has_water(const WriteTinOptions& options) {
-    return std::find(options.is_water_face.begin(), options.is_water_face.end(), true) !=
-           options.is_water_face.end();
-}
-
 /// Writes one dataset at `path`; messages name `target`.
 WrittenTin write_dataset(const Tin& tin, const Crs& crs, const TinDriver& driver, const std::string& path,
                          const std::string& target, const WriteTinOptions& options) {
@@ -88,30 +83,28 @@ WrittenTin write_dataset(const Tin& tin, const Crs& crs, const TinDriver& driver
     FeatureProgress progress(options.progress, count_features(tin, driver, options.geometry));
     const Tick tick = [&progress] { progress(); };
     TinDataset dataset(driver, path, target, crs, options, counts_of(tin));
-    const std::vector<bool> none;
     written.layers.push_back(layer);
     switch (options.geometry) {
         case Geometry::Edges:
-            written.features = write_edges(dataset, layer, tin, options.lines, false, tick);
+            written.features = write_edges(dataset, layer, tin, options, false, tick);
             break;
         case Geometry::Vertices:
-            written.features = write_vertices(dataset, layer, tin, options.origins, tick);
+            written.features = write_vertices(dataset, layer, tin, options, tick);
             break;
         case Geometry::Tin:
-            written.features = write_surface(dataset, layer, tin, tick);
+            written.features = write_surface(dataset, layer, tin, options, tick);
             break;
         case Geometry::Polygon:
-            written.features =
-                write_faces(dataset, layer, tin, has_water(options) ? options.is_water_face : none, tick);
+            written.features = write_faces(dataset, layer, tin, options, tick);
             break;
     }
     const bool is_surface = options.geometry == Geometry::Polygon || options.geometry == Geometry::Tin;
     if (driver.has_layers && is_surface) {
         if (count_edges(tin.mesh).constrained > 0) {
-            write_edges(dataset, "constrained_edges", tin, options.lines, true, tick);
+            write_edges(dataset, "constrained_edges", tin, options, true, tick);
             written.layers.emplace_back("constrained_edges");
         }
-        write_vertices(dataset, "vertices", tin, options.origins, tick);
+        write_vertices(dataset, "vertices", tin, options, tick);
         written.layers.emplace_back("vertices");
     }
     dataset.add_metadata_table();
@@ -124,9 +117,15 @@ struct Kept {
     bool opens = false;
     bool geometry = false;
     bool elevations = false;
-    bool positions = false;  ///< to within a thousandth of a unit
+    bool positions = false;  ///< to within a thousandth of a unit, or what that is in degrees
     bool exact = false;
     bool crs = false;
+};
+
+/// A face to try a driver out with.
+struct ProbeFace {
+    Tin tin;
+    std::vector<Point2> positions;  ///< as in the options
 };
 
 class PointCollector : public OGRDefaultConstGeometryVisitor {
@@ -136,8 +135,8 @@ class PointCollector : public OGRDefaultConstGeometryVisitor {
     std::vector<Point3> points;
 };
 
-Kept compare(const std::vector<Point3>& expected, const std::vector<Point3>& found) {
-    constexpr double kPositionTolerance = 1e-3;
+Kept compare(const std::vector<Point3>& expected, const std::vector<Point3>& found, bool is_geographic) {
+    const double position_tolerance = is_geographic ? 1e-8 : 1e-3;
     constexpr double kElevationTolerance = 1e-6;
     Kept kept;
     kept.opens = true;
@@ -156,7 +155,7 @@ Kept compare(const std::vector<Point3>& expected, const std::vector<Point3>& fou
         const auto has_elevation = [&p](const Point3& q) {
             return std::abs(q.z - p.z) <= kElevationTolerance;
         };
-        const bool is_there = distance(*nearest) <= kPositionTolerance;
+        const bool is_there = distance(*nearest) <= position_tolerance;
         kept.positions = kept.positions && is_there;
         kept.elevations =
             kept.elevations &&
@@ -166,7 +165,8 @@ Kept compare(const std::vector<Point3>& expected, const std::vector<Point3>& fou
     return kept;
 }
 
-Kept read_probe(const std::string& path, const Tin& tin, const Crs& crs) {
+Kept read_probe(const std::string& path, const ProbeFace& face, const Crs& crs,
+                const WriteTinOptions& written) {
     const std::array<const char*, 4> open_options = {"X_POSSIBLE_NAMES=X", "Y_POSSIBLE_NAMES=Y",
                                                      "Z_POSSIBLE_NAMES=Z", nullptr};
     const bool is_csv = EQUAL(CPLGetExtension(path.c_str()), "csv");
@@ -183,16 +183,16 @@ Kept read_probe(const std::string& path, const Tin& tin, const Crs& crs) {
         }
     }
     std::vector<Point3> expected;
-    for (std::uint32_t v = 0; v < tin.vertex_count(); ++v) {
-        expected.push_back(tin.position({v}));
+    for (std::uint32_t v = 0; v < face.tin.vertex_count(); ++v) {
+        expected.push_back(written_position(face.tin, written, {v}));
     }
-    Kept kept = compare(expected, collector.points);
+    Kept kept = compare(expected, collector.points, crs.is_geographic());
     kept.crs = Crs::from_gdal(layer->GetSpatialRef()).is_same(crs);
     return kept;
 }
 
-/// Writes `tin`, a single face, in memory and reads it back.
-Kept probe(const Tin& tin, const Crs& crs, const TinDriver& driver, const std::string& target,
+/// Writes a single face in memory and reads it back.
+Kept probe(const ProbeFace& face, const Crs& crs, const TinDriver& driver, const std::string& target,
            const WriteTinOptions& options) {
     static std::atomic<int> count = 0;
     const std::string folder = "/vsimem/tinwright_probe_" + std::to_string(++count);
@@ -202,12 +202,14 @@ Kept probe(const Tin& tin, const Crs& crs, const TinDriver& driver, const std::s
     quiet.origins = {};
     quiet.lines = {};
     quiet.is_water_face = {};
+    quiet.positions = face.positions;
+    quiet.ground = {};
     Kept kept;
     const GdalMessages messages;
     VSIMkdir(folder.c_str(), 0755);
     try {
-        write_dataset(tin, crs, driver, path, target, quiet);
-        kept = read_probe(path, tin, crs);
+        write_dataset(face.tin, crs, driver, path, target, quiet);
+        kept = read_probe(path, face, crs, quiet);
     } catch (const Error&) {
         VSIRmdirRecursive(folder.c_str());
         throw;
@@ -254,8 +256,9 @@ Tin sample_face() {
 }
 
 /// The first terrain face alone.
-Tin first_face(const Tin& tin) {
-    Tin face = sample_face();
+ProbeFace first_face(const Tin& tin, const WriteTinOptions& options) {
+    ProbeFace probe{sample_face(), {}};
+    Tin& face = probe.tin;
     for (std::uint32_t f = 0; f < tin.mesh.slot_count(); ++f) {
         if (tin.mesh.is_terrain({f})) {
             face.lattice = tin.lattice;
@@ -263,11 +266,14 @@ Tin first_face(const Tin& tin) {
                 const VertexId v = tin.mesh.vertex({f}, i);
                 face.keys[i] = tin.key(v);
                 face.z[i] = tin.z[v.value];
+                if (!options.positions.empty()) {
+                    probe.positions.push_back(options.positions[v.value]);
+                }
             }
             break;
         }
     }
-    return face;
+    return probe;
 }
 
 void check_options(const TinDriver& driver, const WriteTinOptions& options) {
@@ -310,7 +316,7 @@ std::vector<std::string> warnings_for(const Tin& tin, const Kept& kept, const Ti
         warnings.push_back("driver " + quoted(driver.name) +
                            " does not keep which edges are rivers: rasters of the file do not follow them");
     }
-    if (driver.significant_digits > 0 && needs_more_digits(tin, driver.significant_digits)) {
+    if (driver.significant_digits > 0 && needs_more_digits(tin, options, driver.significant_digits)) {
         warnings.push_back("driver " + quoted(driver.name) + " writes coordinates with " +
                            std::to_string(driver.significant_digits) +
                            " significant digits; some here have more");
@@ -332,7 +338,8 @@ void check_tin_target(const std::string& target, const WriteTinOptions& options)
     try {
         // With a projected CRS, drivers betray themselves that turn everything into longitude and latitude.
         const Crs projected = Crs::parse("EPSG:32635");
-        require_kept(probe(sample_face(), projected, driver, target, options), driver, options.geometry);
+        require_kept(probe({sample_face(), {}}, projected, driver, target, options), driver,
+                     options.geometry);
     } catch (const IoError& error) {
         throw UsageError("driver " + quoted(driver.name) + " cannot write such a TIN: " + error.what() +
                          "; " + advice(options.geometry));
@@ -344,7 +351,7 @@ WrittenTin write_tin(const Tin& tin, const Crs& crs, const std::string& target,
     const TinDriver driver = find_tin_driver(target, options.driver);
     check_options(driver, options);
     AtomicOutput output(target, options.overwrite);
-    const Kept kept = probe(first_face(tin), crs, driver, target, options);
+    const Kept kept = probe(first_face(tin, options), crs, driver, target, options);
     require_kept(kept, driver, options.geometry);
     report_progress(options.progress, 0);
     WrittenTin written = write_dataset(tin, crs, driver, output.path(), target, options);
