@@ -97,10 +97,9 @@ io::WrittenContours CommandContour::write(const Contours& made, const Surface& s
     const io::OutputPositions positions = surface.output_positions();
     const io::Crs& crs_written = surface.output_crs;
     if (contours.is_bands) {
-        return positions.is_identity()
-                   ? io::write_bands(made.bands, crs_written, output.path, options)
-                   : io::write_bands(io::written_bands(made.bands, positions), crs_written, output.path,
-                                     options);
+        return positions.is_identity() ? io::write_bands(made.bands, crs_written, output.path, options)
+                                       : io::write_bands(io::written_bands(made.bands, positions),
+                                                         crs_written, output.path, options);
     }
     return positions.is_identity()
                ? io::write_contours(made.levels, made.lines, crs_written, output.path, options)

@@ -8,6 +8,7 @@
 #include "console.hpp"
 #include "explanation.hpp"
 #include "job_report.hpp"
+#include "sample_queries.hpp"
 #include "surface_input.hpp"
 
 namespace tinwright::tools {
@@ -73,7 +74,13 @@ Outcome CommandExplain::run() {
     if (const std::string warning = slope_warning(surface.crs, surface.z_unit); !warning.empty()) {
         console.warn(warning);
     }
-    const ExplainOptions options{at, interpolation, sample.slope_unit, triangulation.threads};
+    const io::Crs place_crs = surface.place_crs(crs);
+    const ExplainOptions options{at,
+                                 place_in_plane(at, place_crs, surface.crs),
+                                 place_crs,
+                                 interpolation,
+                                 sample.slope_unit,
+                                 triangulation.threads};
     Explanation explanation;
     run_with_threads(triangulation.threads, [&] { explanation = explain(surface, options); });
     if (surface.conflicts) {

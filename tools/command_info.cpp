@@ -1,6 +1,7 @@
 #include "command_info.hpp"
 
 #include "tinwright/criteria/quality.hpp"
+#include "tinwright/geometry/threads.hpp"
 
 #include "console.hpp"
 #include "job_report.hpp"
@@ -8,6 +9,12 @@
 #include "surface_input.hpp"
 
 namespace tinwright::tools {
+
+namespace {
+
+constexpr std::size_t kWorstFaces = 5;  // of each measure
+
+}  // namespace
 
 void CommandInfo::setup(const std::vector<std::string>& arguments) {
     const auto parser =
@@ -36,7 +43,9 @@ Outcome CommandInfo::run() {
     if (!surface.flat_faces) {
         surface.flat_faces = count_in_file(surface.tin, surface.is_water_face, surface.metadata);
     }
-    const QualityReport quality = assess_quality(surface.tin);
+    QualityReport quality;
+    run_with_threads(triangulation.threads,
+                     [&] { quality = assess_quality(surface.tin, kWorstFaces, surface.ground); });
     console.progress().finish();
 
     JobReport report;

@@ -112,6 +112,7 @@ void CommandSample::check_files() const {
 Queries CommandSample::read_places(bool are_lines, const Surface& surface, Console& console) const {
     QueryOptions options;
     options.crs = surface.crs;
+    options.place_crs = surface.place_crs(crs);
     options.source_crs = crs.source_crs();
     options.skip_bad = sources.skip_bad;
     options.threads = triangulation.threads;
@@ -128,20 +129,22 @@ SampledCounts CommandSample::write_samples(const Queries& queries, const Surface
     SampledCounts counts;
     counts.are_lines = !queries.lines.empty();
     // Planes change at edges only; other surfaces bend between them, so there points come at even distances.
-    ProfileOptions profile{.has_cuts = interpolation.is_linear() || sample.step == 0, .step = sample.step};
+    ProfileOptions profile{.has_cuts = interpolation.is_linear() || sample.step == 0,
+                           .step = sample.step,
+                           .ground = surface.ground};
     if (counts.are_lines && !interpolation.is_linear() && sample.step == 0) {
-        profile.step = choose_grid(surface.tin, {}).cell_width;
+        profile.step = choose_grid(surface.tin, {}).cell_width * surface.ground.plane_unit;
     }
     counts.step = profile.step;
     counts.has_cuts = profile.has_cuts;
     const auto table =
-        make_sample_table(output, counts.are_lines ? line_columns() : point_columns(), surface.crs,
+        make_sample_table(output, counts.are_lines ? line_columns() : point_columns(), surface.output_crs,
                           output_metadata("sample", surface, triangulation, lines, reading_options(*this)));
     driver = table->driver();
     std::vector<ProfileCurve> curves;
     run_with_threads(triangulation.threads, [&] {
-        const SurfaceSampler sampler(surface, interpolation, sample.slope_unit, triangulation.threads,
-                                     console.progress().stage(0.7, 1));
+        const SurfaceSampler sampler(surface, interpolation, sample.slope_unit, surface.place_crs(crs),
+                                     triangulation.threads, console.progress().stage(0.7, 1));
         if (counts.are_lines) {
             sampler.sample_lines(queries, profile, *table, counts, sample.plot.empty() ? nullptr : &curves);
         } else {
@@ -150,7 +153,7 @@ SampledCounts CommandSample::write_samples(const Queries& queries, const Surface
     });
     console.progress().finish();
     if (!sample.plot.empty()) {
-        write_drawing(draw_profiles(curves, {surface.crs.unit(), surface.z_unit}), sample.plot,
+        write_drawing(draw_profiles(curves, {surface.length_unit(), surface.z_unit}), sample.plot,
                       output.overwrite);
     }
     table->finish();

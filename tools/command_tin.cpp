@@ -167,7 +167,7 @@ Outcome CommandTin::run_graph(Console& console) {
     JobReport report;
     report.graph = summarize(edges, graph);
     const bool is_geodesic = surface.ground.is_geodesic() && graph.norm.is_euclidean();
-    report.graph->unit = is_geodesic                   ? surface.ground.unit
+    report.graph->unit = is_geodesic                  ? surface.ground.unit
                          : surface.crs.unit().empty() ? kUnknownLengthUnit
                                                       : surface.crs.unit();
     report.graph->seconds = seconds_since(start);

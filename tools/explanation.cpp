@@ -26,11 +26,15 @@ namespace {
 class Explainer {
   public:
     Explainer(const Surface& surface, const ExplainOptions& options)
-        : surface_(surface), tin_(surface.tin), options_(options), sharp_(tin_, surface.is_line_sharp) {}
+        : surface_(surface),
+          tin_(surface.tin),
+          options_(options),
+          sharp_(tin_, surface.is_line_sharp),
+          positions_(surface.crs, options.place_crs, surface.bounds()) {}
 
     Explanation explain() const {
         const SurfaceLocator locator(tin_);
-        const Key2 at = locator.lattice().at(options_.at);
+        const Key2 at = locator.lattice().at(options_.in_plane);
         Explanation result;
         result.asked = options_.at;
         result.quantum = tin_.lattice.quantum();
@@ -48,16 +52,17 @@ class Explainer {
     void explain_neighbourhood(Key2 at, Explanation& result) const {
         const SampleTree samples(tin_);
         const std::optional<VertexId> nearest =
-            QueryLattice::is_near(at) ? samples.nearest(at) : nearest_of_all(options_.at);
+            QueryLattice::is_near(at) ? samples.nearest(at) : nearest_of_all(options_.in_plane);
         if (!nearest) {
             throw InputError("the surface has no vertex: there is nothing to explain");
         }
         result.nearest = vertex(*nearest);
-        result.nearest_distance =
-            QueryLattice::is_near(at) ? samples.distance(at, *nearest) : distance(options_.at, *nearest);
+        result.nearest_distance = QueryLattice::is_near(at) && !surface_.ground.is_geodesic()
+                                      ? samples.distance(at, *nearest)
+                                      : ground_distance(options_.in_plane, *nearest);
         const BreaklineDistance breaklines(tin_, breaklines_of(surface_));
         if (!breaklines.is_empty()) {
-            result.breakline_distance = breaklines.at(at);
+            result.breakline_distance = breaklines.at(at, surface_.ground);
         }
     }
 
@@ -79,6 +84,10 @@ class Explainer {
     [[nodiscard]] double distance(Point2 from, VertexId v) const {
         const Point3 p = tin_.position(v);
         return std::hypot(p.x - from.x, p.y - from.y);
+    }
+    [[nodiscard]] double ground_distance(Point2 from, VertexId v) const {
+        const Point3 p = tin_.position(v);
+        return surface_.ground.length(from, {p.x, p.y});
     }
 
     void explain_face(const SurfacePlace& place, Explanation& result) const {
@@ -132,6 +141,7 @@ class Explainer {
 
     [[nodiscard]] ExplainedVertex vertex(VertexId v) const {
         ExplainedVertex explained{v, tin_.position(v), kind_of(v), {}};
+        positions_.apply_to(std::span(&explained.position, 1));
         const io::VertexOrigins& origins = surface_.origins.vertices;
         explained.from = provenance(v.value < origins.source.size() ? origins.source[v.value] : 0,
                                     v.value < origins.feature.size() ? origins.feature[v.value] : -1);
@@ -177,7 +187,7 @@ class Explainer {
         explained.a = mesh.origin(h);
         explained.b = mesh.destination(h);
         const Point3 p = tin_.position(explained.a);
-        explained.length = distance({p.x, p.y}, explained.b);
+        explained.length = ground_distance({p.x, p.y}, explained.b);
         explained.is_constrained = mesh.is_constrained(h);
         explained.is_border = mesh.is_border(h);
         explained.is_sharp = sharp_.is_sharp(h);
@@ -228,6 +238,7 @@ class Explainer {
     const Tin& tin_;
     const ExplainOptions& options_;
     SharpEdges sharp_;
+    io::OutputPositions positions_;
 };
 
 }  // namespace

@@ -42,7 +42,7 @@ struct ExplainedLine {
 struct ExplainedEdge {
     VertexId a{};
     VertexId b{};
-    double length = 0;  ///< CRS units
+    double length = 0;  ///< on the ground
     bool is_constrained = false;
     bool is_border = false;
     bool is_sharp = false;  ///< smooth interpolators may have a crease there
@@ -55,7 +55,7 @@ struct ExplainedEdge {
 /// The longest edge of a face of a TIN that was made for length.
 struct ExplainedLength {
     std::size_t edge = 0;  ///< of `Explanation::edges`; of equal ones the first
-    double of_tin = 0;     ///< longest edge of the whole TIN as it is here
+    double of_tin = 0;     ///< longest edge of the whole TIN as it is here, in the plane
 };
 
 struct ExplainedMethod {
@@ -67,7 +67,7 @@ struct ExplainedMethod {
 /// Why a surface is as it is at one place.
 struct Explanation {
     Point2 asked{};
-    double quantum = 0;  ///< vertices lie at multiples of it, CRS units
+    double quantum = 0;  ///< vertices lie at multiples of it, CRS units of the plane
     double step = 0;     ///< the place was rounded to multiples of this
     bool is_inside = false;
     ExplainedVertex nearest;  ///< vertex that was given, rather than made
@@ -85,7 +85,9 @@ struct Explanation {
 };
 
 struct ExplainOptions {
-    Point2 at{};
+    Point2 at{};                               ///< as given
+    Point2 in_plane{};                         ///< the same in the surface's plane
+    io::Crs place_crs;                         ///< of `at`, and of locations that are told
     const InterpolationChoice& interpolation;  ///< options of methods, for the one it names
     SlopeUnit slope_unit = SlopeUnit::Degree;
     int threads = 0;

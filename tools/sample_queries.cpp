@@ -1,11 +1,14 @@
 #include "sample_queries.hpp"
 
+#include <cmath>
 #include <memory>
 
 #include <gdal_priv.h>
 #include <ogrsf_frmts.h>
 
+#include "tinwright/geometry/decimal.hpp"
 #include "tinwright/geometry/error.hpp"
+#include "tinwright/io/coordinate_transform.hpp"
 #include "tinwright/io/gdal_session.hpp"
 #include "tinwright/io/open_source.hpp"
 #include "tinwright/io/read_lines.hpp"
@@ -77,6 +80,14 @@ void warn_of_guess(const io::Crs& crs, const QueryOptions& options, Queries& que
     }
 }
 
+/// Of sources that carry none: what is said, else that of positions, where that is another than the plane's,
+/// which is taken anyway.
+io::Crs crs_of_bare_sources(const QueryOptions& options) {
+    const bool is_other =
+        options.place_crs.is_known() && !options.place_crs.is_same_horizontally(options.crs);
+    return options.source_crs.is_known() || !is_other ? options.source_crs : options.place_crs;
+}
+
 void read_points(std::span<const Whereabouts> at, const QueryOptions& options, Queries& queries) {
     NumberedSources numbered = numbered_sources(at);
     io::Samples samples;
@@ -90,8 +101,8 @@ void read_points(std::span<const Whereabouts> at, const QueryOptions& options, Q
         }
         io::ReadOptions read;
         read.skip_bad = options.skip_bad;
-        read.crs = options.crs;
-        read.source_crs = options.source_crs;
+        read.crs = options.crs.horizontal();
+        read.source_crs = crs_of_bare_sources(options);
         read.threads = options.threads;
         read.progress = options.progress;
         samples = io::read_samples(numbered.sources, read);
@@ -102,7 +113,8 @@ void read_points(std::span<const Whereabouts> at, const QueryOptions& options, Q
     for (std::size_t i = 0; i < at.size(); ++i) {
         const auto number = static_cast<std::int64_t>(i) + 1;
         if (const auto* const position = std::get_if<Point2>(&at[i])) {
-            queries.points.push_back(*position);
+            queries.points.push_back(place_in_plane(*position, options.place_crs, options.crs));
+            queries.given.emplace_back(*position);
             queries.point_ids.push_back({number, number});
             continue;
         }
@@ -110,6 +122,7 @@ void read_points(std::span<const Whereabouts> at, const QueryOptions& options, Q
             for (std::size_t k = 0; k < slice->count; ++k) {
                 const Point3& point = samples.points[slice->first + k];
                 queries.points.push_back({point.x, point.y});
+                queries.given.emplace_back();
                 queries.point_ids.push_back({number, slice->id(k)});
             }
         }
@@ -125,8 +138,8 @@ void read_profile_lines(std::span<const Whereabouts> at, const QueryOptions& opt
     }
     io::ReadLinesOptions read;
     read.skip_bad = options.skip_bad;
-    read.crs = options.crs;
-    read.source_crs = options.source_crs;
+    read.crs = options.crs.horizontal();
+    read.source_crs = crs_of_bare_sources(options);
     read.progress = options.progress;
     const io::Lines lines = io::read_lines(sources, read);
     queries.warnings = lines.warnings;
@@ -141,6 +154,20 @@ void read_profile_lines(std::span<const Whereabouts> at, const QueryOptions& opt
 }
 
 }  // namespace
+
+Point2 place_in_plane(Point2 position, const io::Crs& place_crs, const io::Crs& plane) {
+    if (!place_crs.is_known() || !plane.is_known() || place_crs.is_same_horizontally(plane)) {
+        return position;
+    }
+    Point2 placed = position;
+    io::CoordinateTransform(place_crs.horizontal(), plane.horizontal()).forward(std::span(&placed, 1));
+    if (!std::isfinite(placed.x) || !std::isfinite(placed.y)) {
+        throw InputError("the position " + decimal_text(position.x) + "," + decimal_text(position.y) +
+                         " cannot be transformed from " + place_crs.name() + " to " + plane.name() +
+                         ": positions are in " + place_crs.name());
+    }
+    return placed;
+}
 
 bool are_lines(std::span<const Whereabouts> at) {
     const Whereabouts* with_points = nullptr;

@@ -196,6 +196,11 @@ void treat_flat_faces(const TriangulationOptions& triangulation, Surface& surfac
 
 }  // namespace
 
+io::Crs Surface::place_crs(const CrsOptions& options) const {
+    const io::Crs asked = options.crs();
+    return asked.is_known() ? asked : plane.is_source_geographic() ? plane.source_crs : crs;
+}
+
 std::string metadata_value(const io::TinMetadata& metadata, const std::string& key) {
     for (const auto& [name, value] : metadata) {
         if (name == key) {
@@ -248,8 +253,7 @@ Surface triangulate_sources(const SurfaceRequest& request, Console& console) {
         request.lines->apply_to(options);
     }
     Surface surface;
-    const io::WorkingPlane& plane =
-        inputs.samples.crs.is_known() ? inputs.samples.plane : inputs.lines.plane;
+    const io::WorkingPlane& plane = inputs.samples.crs.is_known() ? inputs.samples.plane : inputs.lines.plane;
     options.ground = io::make_ground_measures(plane);
     if (has_water) {
         surface.water = level_inputs(request, inputs, console.progress().stage(read_end, triangulate_at));
@@ -278,9 +282,8 @@ Surface triangulate_sources(const SurfaceRequest& request, Console& console) {
             for (LineConflict& conflict : conflicts) {
                 conflict.location = positions.transform(conflict.location);
             }
-            surface.conflicts =
-                write_conflicts(conflicts, {inputs.lines, inputs.samples}, surface.output_crs,
-                                request.lines->conflicts, request.overwrite_conflicts);
+            surface.conflicts = write_conflicts(conflicts, {inputs.lines, inputs.samples}, surface.output_crs,
+                                                request.lines->conflicts, request.overwrite_conflicts);
         }
     }
     for (const Breakline& line : inputs.lines.lines) {
@@ -352,8 +355,8 @@ Surface read_existing_tin(const SurfaceRequest& request, Console& console) {
     surface.lines = read_lines_summary(surface.metadata);
     surface.tin_layer = std::move(file.layer);
     if (request.triangulation.max_edge) {
-        surface.void_faces =
-            drop_long_faces(surface.tin, *request.triangulation.max_edge, surface.is_water_face, surface.ground);
+        surface.void_faces = drop_long_faces(surface.tin, *request.triangulation.max_edge,
+                                             surface.is_water_face, surface.ground);
     }
     surface.read_seconds = seconds_since(start);
     return surface;

@@ -38,6 +38,11 @@ struct SourceName {
 struct Surface {
     /// Whether what is written has the positions of the TIN.
     [[nodiscard]] bool is_written_in_plane() const { return output_crs.is_same_horizontally(crs); }
+    /// The system that positions on the command line are in: --crs, else the samples' own where it is
+    /// geographic, else the plane's.
+    [[nodiscard]] io::Crs place_crs(const CrsOptions& options) const;
+    /// Of lengths that are told; empty when unknown.
+    [[nodiscard]] std::string length_unit() const { return ground.is_geodesic() ? ground.unit : crs.unit(); }
     /// Of samples, or of what is read from a file; in the plane.
     [[nodiscard]] Box bounds() const { return report ? report->bounds : tin.bounds(); }
     /// The way from the plane to what is written. Throws InputError.

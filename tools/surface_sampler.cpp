@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <string>
 #include <utility>
 
@@ -119,20 +120,22 @@ std::span<const TableColumn> point_columns() { return kPointColumns; }
 std::span<const TableColumn> line_columns() { return kLineColumns; }
 
 SurfaceSampler::SurfaceSampler(const Surface& surface, const InterpolationChoice& interpolation,
-                               SlopeUnit slope_unit, int threads, Progress progress)
+                               SlopeUnit slope_unit, const io::Crs& place_crs, int threads, Progress progress)
     : surface_(surface),
       slope_unit_(slope_unit),
       interpolator_(interpolation.make(surface, threads)),
       face_numbers_(number_terrain(surface.tin.mesh)),
       breaklines_(surface.tin, breaklines_of(surface)),
       lattice_(surface.tin),
+      positions_(surface.output_positions()),
+      is_given_written_(place_crs.is_same_horizontally(surface.output_crs)),
       progress_(std::move(progress)) {}
 
-void SurfaceSampler::append_reading(std::vector<TableValue>& row, Point2 position,
+void SurfaceSampler::append_reading(std::vector<TableValue>& row, Point2 position, Point2 written,
                                     const std::optional<SurfacePlace>& place,
                                     const SurfaceReading& reading) const {
-    row.emplace_back(position.x);
-    row.emplace_back(position.y);
+    row.emplace_back(written.x);
+    row.emplace_back(written.y);
     if (place) {
         row.emplace_back(reading.z);
         row.emplace_back(slope_of(reading.gradient, slope_unit_));
@@ -142,7 +145,8 @@ void SurfaceSampler::append_reading(std::vector<TableValue>& row, Point2 positio
         row.resize(row.size() + 4);
     }
     row.emplace_back(std::int64_t{place ? 1 : 0});
-    row.emplace_back(breaklines_.at(lattice_.at(position)));  // infinite, so empty, where there is none
+    // Infinite, so empty, where there is none.
+    row.emplace_back(breaklines_.at(lattice_.at(position), surface_.ground));
 }
 
 void SurfaceSampler::sample_points(const Queries& queries, SampleTable& table, SampledCounts& counts) const {
@@ -156,11 +160,14 @@ void SurfaceSampler::sample_points(const Queries& queries, SampleTable& table, S
                 .first(std::min(kPointsAtATime, queries.points.size() - first));
         const std::vector<std::optional<SurfacePlace>> places = find_places(locator, points);
         const Readings readings(*interpolator_, list_places(places, [](const auto& place) { return place; }));
+        const std::vector<Point2> written = positions_.transform(points);
         for (std::size_t i = 0; i < places.size(); ++i) {
             const QueryId& id = queries.point_ids[first + i];
+            const std::optional<Point2>& given = queries.given[first + i];
+            const Point2 position = given && is_given_written_ ? *given : written[i];
             row.assign({id.source, id.feature});
-            append_reading(row, points[i], places[i], readings.at(i));
-            table.add(points[i], row);
+            append_reading(row, points[i], position, places[i], readings.at(i));
+            table.add(position, row);
             counts.outside += places[i] ? 0 : 1;
         }
     }
@@ -176,6 +183,10 @@ void SurfaceSampler::sample_lines(const Queries& queries, const ProfileOptions& 
         const std::vector<ProfilePoint> points = cutter.cut(queries.lines[l], options);
         const Readings readings(*interpolator_,
                                 list_places(points, [](const auto& point) { return point.place; }));
+        std::vector<Point2> written;
+        std::transform(points.begin(), points.end(), std::back_inserter(written),
+                       [](const ProfilePoint& point) { return point.position; });
+        written = positions_.transform(written);
         const QueryId& id = queries.line_ids[l];
         std::uint32_t parts = 0;
         for (std::size_t i = 0; i < points.size(); ++i) {
@@ -190,8 +201,8 @@ void SurfaceSampler::sample_lines(const Queries& queries, const ProfileOptions& 
             }
             row.emplace_back(point.chainage);
             row.emplace_back(kind_word(point.kind));
-            append_reading(row, point.position, point.place, readings.at(i));
-            table.add(point.position, row);
+            append_reading(row, point.position, written[i], point.place, readings.at(i));
+            table.add(written[i], row);
         }
         counts.points += points.size();
         counts.parts += parts;

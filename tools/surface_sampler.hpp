@@ -42,10 +42,11 @@ struct SampledCounts {
 /// A surface, ready to be read.
 class SurfaceSampler {
   public:
-    /// `surface` must outlive it. Parallel inside the caller's task arena; `threads` for the interpolator;
-    /// `progress` of each call, which throws `Cancelled` when asked to stop.
+    /// `surface` must outlive it. `place_crs`: of positions on the command line. Parallel inside the caller's
+    /// task arena; `threads` for the interpolator; `progress` of each call, which throws `Cancelled` when
+    /// asked to stop.
     SurfaceSampler(const Surface& surface, const InterpolationChoice& interpolation, SlopeUnit slope_unit,
-                   int threads, Progress progress);
+                   const io::Crs& place_crs, int threads, Progress progress);
 
     /// A row for each point. Adds to `counts`.
     void sample_points(const Queries& queries, SampleTable& table, SampledCounts& counts) const;
@@ -54,7 +55,7 @@ class SurfaceSampler {
                       SampledCounts& counts, std::vector<ProfileCurve>* curves) const;
 
   private:
-    void append_reading(std::vector<TableValue>& row, Point2 position,
+    void append_reading(std::vector<TableValue>& row, Point2 position, Point2 written,
                         const std::optional<SurfacePlace>& place, const SurfaceReading& reading) const;
 
     const Surface& surface_;
@@ -63,6 +64,8 @@ class SurfaceSampler {
     std::vector<std::uint32_t> face_numbers_;
     BreaklineDistance breaklines_;
     QueryLattice lattice_;
+    io::OutputPositions positions_;
+    bool is_given_written_;  ///< positions of the command line are in the system that is written
     Progress progress_;
 };
 

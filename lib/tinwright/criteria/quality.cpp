@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 
 #include "tinwright/mesh/border.hpp"
 
@@ -123,6 +127,47 @@ std::vector<FaceValue> find_worst(const Tin& tin, const std::vector<FaceId>& fac
     return worst;
 }
 
+/// The measure of a face, lengths and areas on the ground.
+double measure_on_ground(const Tin& tin, FaceId face, FaceMeasure measure, const GroundMeasures& ground) {
+    if (measure != FaceMeasure::LongestEdge && measure != FaceMeasure::Area) {
+        return measure_face(tin, face, measure);
+    }
+    std::array<Point2, 3> corners{};
+    for (unsigned i = 0; i < 3; ++i) {
+        const Point3 p = tin.position(tin.mesh.vertex(face, i));
+        corners[i] = {p.x, p.y};
+    }
+    if (measure == FaceMeasure::Area) {
+        return ground.area(corners);
+    }
+    // Edges that the plane says are shorter by more than it is off, twice, need no measuring.
+    const double least = measure_face(tin, face, measure) * (1 - 2 * ground.distortion - 1e-8);
+    double longest = 0;
+    for (unsigned i = 0; i < 3; ++i) {
+        const Point2 a = corners[i];
+        const Point2 b = corners[next_corner(i)];
+        if (std::hypot(b.x - a.x, b.y - a.y) >= least) {
+            longest = std::max(longest, ground.length(a, b));
+        }
+    }
+    return longest;
+}
+
+void fill(std::vector<double>& values, const Tin& tin, const std::vector<FaceId>& faces, FaceMeasure measure,
+          const GroundMeasures& ground) {
+    if (!ground.is_geodesic()) {
+        std::transform(faces.begin(), faces.end(), values.begin(),
+                       [&](FaceId face) { return measure_face(tin, face, measure); });
+        return;
+    }
+    constexpr std::size_t kBlock = 1024;
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, faces.size(), kBlock), [&](const auto& range) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i) {
+            values[i] = measure_on_ground(tin, faces[i], measure, ground);
+        }
+    });
+}
+
 double value_of_rank(std::vector<double>& values, std::size_t rank) {
     const auto nth = values.begin() + static_cast<std::ptrdiff_t>(std::min(rank, values.size() - 1));
     std::nth_element(values.begin(), nth, values.end());
@@ -148,7 +193,7 @@ double measure_face(const Tin& tin, FaceId face, FaceMeasure measure) {
 
 double slope_ratio(const Tin& tin, FaceId face) { return gradient_length(edges_of(tin, face)); }
 
-QualityReport assess_quality(const Tin& tin, std::size_t worst) {
+QualityReport assess_quality(const Tin& tin, std::size_t worst, const GroundMeasures& ground) {
     std::vector<FaceId> faces;
     for (std::uint32_t f = 0; f < tin.mesh.slot_count(); ++f) {
         if (tin.mesh.is_terrain(FaceId{f})) {
@@ -162,9 +207,9 @@ QualityReport assess_quality(const Tin& tin, std::size_t worst) {
     }
     std::vector<double> values(faces.size());
     for (const FaceMeasure measure : kFaceMeasures) {
-        for (std::size_t i = 0; i < faces.size(); ++i) {
-            values[i] = measure_face(tin, faces[i], measure);
-            report.area += measure == FaceMeasure::Area ? values[i] : 0;
+        fill(values, tin, faces, measure, ground);
+        if (measure == FaceMeasure::Area) {
+            report.area = std::accumulate(values.begin(), values.end(), 0.0);
         }
         const auto [minimum, maximum] = std::minmax_element(values.begin(), values.end());
         MeasureSummary summary;

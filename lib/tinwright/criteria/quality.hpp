@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "tinwright/geometry/ground_measures.hpp"
 #include "tinwright/mesh/tin.hpp"
 
 /// How good the faces of a TIN are: distributions and worst faces, for reports. Numbers here are rounded
@@ -54,13 +55,14 @@ struct MeasureSummary {
 
 struct QualityReport {
     std::size_t faces = 0;                  ///< terrain faces
-    double area = 0;                        ///< of all of them, square CRS units
+    double area = 0;                        ///< of all of them, square CRS units, or on the ground
     std::vector<MeasureSummary> summaries;  ///< in the order of kFaceMeasures; empty without faces
 };
 
-/// Summarises every measure. `worst`: how many of the worst faces to list.
-/// O(n); 8 bytes a face of scratch.
-QualityReport assess_quality(const Tin& tin, std::size_t worst = 5);
+/// Summarises every measure. `worst`: how many of the worst faces to list. Lengths and areas are those of the
+/// ground. O(n), parallel inside the caller's task arena where these are functions; 8 bytes a face of
+/// scratch.
+QualityReport assess_quality(const Tin& tin, std::size_t worst = 5, const GroundMeasures& ground = {});
 
 }  // namespace tinwright
 

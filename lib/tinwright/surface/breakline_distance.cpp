@@ -18,6 +18,13 @@ struct Edge {
 
     [[nodiscard]] KeyBox box() const { return KeyBox::of(std::array{a, b}); }
     /// Offsets of keys from a place of the query lattice are exact.
+    [[nodiscard]] Key2 nearest_point(Key2 from) const {
+        const double along_x = b.x - a.x;
+        const double along_y = b.y - a.y;
+        const double part =
+            ((from.x - a.x) * along_x + (from.y - a.y) * along_y) / (along_x * along_x + along_y * along_y);
+        return part <= 0 ? a : part >= 1 ? b : Key2{a.x + part * along_x, a.y + part * along_y};
+    }
     [[nodiscard]] double distance(Key2 from) const {
         const double along_x = b.x - a.x;
         const double along_y = b.y - a.y;
@@ -97,15 +104,38 @@ struct BreaklineDistance::State {
         }
     }
 
-    /// Over the edges whose boxes meet a box.
-    [[nodiscard]] double nearest_within(const KeyBox& box, Key2 from) const {
-        double nearest = std::numeric_limits<double>::infinity();
+    struct Nearest {
+        double distance = std::numeric_limits<double>::infinity();
+        std::uint32_t edge = 0;
+    };
+
+    /// Over the edges whose boxes meet a box; of equally near ones the first.
+    [[nodiscard]] Nearest nearest_within(const KeyBox& box, Key2 from) const {
+        Nearest nearest;
         tree.visit_meeting(
             box, [](const KeyBox&) { return false; },
             [&](std::uint32_t item) {
-                nearest = std::min(nearest, edges[item].distance(from));
+                const double distance = edges[item].distance(from);
+                if (distance < nearest.distance || (distance == nearest.distance && item < nearest.edge)) {
+                    nearest = {distance, item};
+                }
                 return true;
             });
+        return nearest;
+    }
+
+    /// In steps of the TIN's lattice.
+    [[nodiscard]] Key2 place(Key2 at) const { return {at.x / lattice.scale(), at.y / lattice.scale()}; }
+
+    /// There is an edge.
+    [[nodiscard]] Nearest nearest_to(Key2 from) const {
+        double reach = first_reach;
+        Nearest nearest = nearest_within(box_around(from, reach), from);
+        while (!(nearest.distance <= reach)) {
+            // A box that met something may have left out what is nearer; one that reaches as far has not.
+            reach = std::isfinite(nearest.distance) ? nearest.distance : 2 * reach;
+            nearest = nearest_within(box_around(from, reach), from);
+        }
         return nearest;
     }
 
@@ -123,18 +153,19 @@ BreaklineDistance::~BreaklineDistance() = default;
 bool BreaklineDistance::is_empty() const { return state_->edges.empty(); }
 
 double BreaklineDistance::at(Key2 at) const {
-    if (is_empty()) {
-        return std::numeric_limits<double>::infinity();
+    return is_empty() ? std::numeric_limits<double>::infinity()
+                      : state_->nearest_to(state_->place(at)).distance / state_->steps_per_unit;
+}
+
+double BreaklineDistance::at(Key2 at, const GroundMeasures& ground) const {
+    if (is_empty() || !ground.is_geodesic()) {
+        return this->at(at);
     }
-    const Key2 from{at.x / state_->lattice.scale(), at.y / state_->lattice.scale()};
-    double reach = state_->first_reach;
-    double nearest = state_->nearest_within(box_around(from, reach), from);
-    while (!(nearest <= reach)) {
-        // A box that met something may have left out what is nearer; one that reaches as far has not.
-        reach = std::isfinite(nearest) ? nearest : 2 * reach;
-        nearest = state_->nearest_within(box_around(from, reach), from);
-    }
-    return nearest / state_->steps_per_unit;
+    const Key2 from = state_->place(at);
+    const Key2 to = state_->edges[state_->nearest_to(from).edge].nearest_point(from);
+    const double scale = state_->lattice.scale();
+    return ground.length(state_->lattice.position(at),
+                         state_->lattice.position({to.x * scale, to.y * scale}));
 }
 
 }  // namespace tinwright

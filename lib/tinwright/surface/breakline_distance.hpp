@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "tinwright/geometry/ground_measures.hpp"
 #include "tinwright/mesh/tin.hpp"
 #include "tinwright/surface/surface_place.hpp"
 
@@ -27,6 +28,8 @@ class BreaklineDistance {
     /// To the nearest one, CRS units, to a few units in the last place; infinite without any. O(log m) for
     /// places near one. May be called from several threads at a time.
     [[nodiscard]] double at(Key2 at) const;
+    /// On the ground, to the point of breaklines that is nearest in the plane; `ground.unit`.
+    [[nodiscard]] double at(Key2 at, const GroundMeasures& ground) const;
 
   private:
     struct State;
