@@ -55,11 +55,11 @@ Outcome CommandInfo::run() {
     if (talk.json) {
         JsonValue json = make_json(report, surface);
         add_content_json(json, surface);
-        add_quality_json(json, surface.tin, quality);
+        add_quality_json(json, surface, quality);
         print_result(json.text());
     } else {
         print_result(report_text(report, surface, {true, talk.verbose}) + content_text(surface) +
-                     quality_text(surface.tin, quality));
+                     quality_text(surface, quality));
     }
     return Outcome::Done;
 }

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "tinwright/criteria/criterion.hpp"
+#include "tinwright/geometry/constructions.hpp"
 #include "tinwright/geometry/decimal.hpp"
 #include "tinwright/geometry/error.hpp"
 #include "tinwright/geometry/predicates.hpp"
@@ -106,12 +107,13 @@ class Explainer {
             const Norm norm = surface_.criterion.edge_norm();
             result.measure = measure_face(tin_, place.face, *criterion, norm);
             if (*criterion == Criterion::Length) {
-                result.length = explain_length(result.edges, norm);
+                result.length = explain_length(result.edges, norm, *result.measure);
             }
         }
     }
 
-    [[nodiscard]] ExplainedLength explain_length(const std::array<ExplainedEdge, 3>& edges, Norm norm) const {
+    [[nodiscard]] ExplainedLength explain_length(const std::array<ExplainedEdge, 3>& edges, Norm norm,
+                                                 double measure) const {
         ExplainedLength longest;
         for (std::size_t i = 1; i < edges.size(); ++i) {
             const ExplainedEdge& best = edges[longest.edge];
@@ -121,7 +123,30 @@ class Explainer {
             }
         }
         longest.of_tin = find_worst(tin_, Criterion::Length, norm).all;
+        const bool is_on_ground = surface_.ground.is_geodesic() && norm.is_euclidean();
+        longest.told = is_on_ground ? edges[longest.edge].length : measure;
+        longest.of_tin_told = is_on_ground ? longest_edge_on_ground() : longest.of_tin;
+        longest.unit = is_on_ground ? surface_.ground.unit : surface_.criterion.unit;
         return longest;
+    }
+
+    /// On the ground, of the edge that is longest in the plane.
+    [[nodiscard]] double longest_edge_on_ground() const {
+        double longest = -1;
+        HalfEdgeId edge{};
+        for (std::uint32_t f = 0; f < tin_.mesh.slot_count(); ++f) {
+            for (unsigned i = 0; i < 3 && tin_.mesh.is_terrain({f}); ++i) {
+                const HalfEdgeId h = half_edge({f}, i);
+                const double squared =
+                    squared_distance(tin_.key(tin_.mesh.origin(h)), tin_.key(tin_.mesh.destination(h)));
+                if (squared > longest) {
+                    longest = squared;
+                    edge = h;
+                }
+            }
+        }
+        const Point3 p = tin_.position(tin_.mesh.origin(edge));
+        return ground_distance({p.x, p.y}, tin_.mesh.destination(edge));
     }
 
     [[nodiscard]] std::string maker(bool is_delaunay, std::size_t constrained) const {

@@ -56,6 +56,9 @@ struct ExplainedEdge {
 struct ExplainedLength {
     std::size_t edge = 0;  ///< of `Explanation::edges`; of equal ones the first
     double of_tin = 0;     ///< longest edge of the whole TIN as it is here, in the plane
+    double told = 0;       ///< the edge's length for people: Euclidean ones on the ground
+    double of_tin_told = 0;
+    std::string unit;  ///< of what is told
 };
 
 struct ExplainedMethod {

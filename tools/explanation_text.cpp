@@ -92,11 +92,11 @@ std::string length_text(const Explanation& explanation, const Surface& surface) 
     const CriterionReport& criterion = surface.criterion;
     const ExplainedEdge& edge = explanation.edges[explanation.length->edge];
     std::string text = "longest edge " + std::to_string(edge.a.value) + " to " +
-                       std::to_string(edge.b.value) + ", " + rounded(*explanation.measure) + " " +
-                       criterion.unit + " in norm " + norm_name(criterion.edge_norm());
+                       std::to_string(edge.b.value) + ", " + rounded(explanation.length->told) + " " +
+                       explanation.length->unit + " in norm " + norm_name(criterion.edge_norm());
     text += *explanation.measure == explanation.length->of_tin
                 ? "; no edge of the TIN is longer"
-                : "; the longest of the TIN has " + rounded(explanation.length->of_tin);
+                : "; the longest of the TIN has " + rounded(explanation.length->of_tin_told);
     return criterion.proven.empty() ? text : text + ", proven: " + criterion.proven;
 }
 
@@ -166,11 +166,12 @@ JsonValue measure_json(const Explanation& explanation, const Surface& surface) {
     if (explanation.length) {
         json.set("norm", norm_name(surface.criterion.edge_norm()));
     }
-    json.set("value", *explanation.measure).set("unit", surface.criterion.unit);
+    json.set("value", explanation.length ? explanation.length->told : *explanation.measure);
+    json.set("unit", explanation.length ? explanation.length->unit : surface.criterion.unit);
     if (explanation.length) {
         const ExplainedEdge& edge = explanation.edges[explanation.length->edge];
         json.set("longest_edge", JsonValue::object().set("a", edge.a.value).set("b", edge.b.value));
-        json.set("longest_of_tin", explanation.length->of_tin);
+        json.set("longest_of_tin", explanation.length->of_tin_told);
     }
     return json;
 }

@@ -25,8 +25,41 @@ std::size_t count_constrained_edges(const TriangleMesh& mesh) {
     return edges;
 }
 
+/// Bounds of what was read, in the system that is written.
 Box bounds_of(const Surface& surface) {
-    return surface.report ? surface.report->bounds : surface.tin.bounds();
+    const std::vector<Point2> vertices = io::written_vertices(surface.tin, surface.output_positions());
+    if (vertices.empty()) {
+        return surface.bounds();
+    }
+    Box bounds;
+    for (const Point2 p : vertices) {
+        bounds.add(p.x, p.y);
+    }
+    return bounds;
+}
+
+/// Whether there is more to say of the plane than that it is the one of the sources and of what is written.
+bool is_plane_told(const Surface& surface) {
+    using Origin = io::WorkingPlane::Origin;
+    return surface.plane.is_source_geographic() || !surface.is_written_in_plane() ||
+           surface.plane.origin == Origin::Utm || surface.plane.origin == Origin::Local;
+}
+
+const char* origin_word(io::WorkingPlane::Origin origin) {
+    using Origin = io::WorkingPlane::Origin;
+    switch (origin) {
+        case Origin::Asked:
+            return "asked";
+        case Origin::Shared:
+            return "shared";
+        case Origin::Utm:
+            return "utm";
+        case Origin::Local:
+            return "local";
+        case Origin::Unknown:
+            break;
+    }
+    return "unknown";
 }
 
 std::string counted(std::size_t count, const std::string& singular, const std::string& plural) {
@@ -238,8 +271,8 @@ std::string quantum_line(const Lattice& lattice) {
 }
 
 std::string crs_line(const Surface& surface) {
-    const std::string unit = surface.crs.unit();
-    return surface.crs.name() + (unit.empty() ? "" : ", unit " + unit) +
+    const std::string unit = surface.output_crs.unit();
+    return surface.output_crs.name() + (unit.empty() ? "" : ", unit " + unit) +
            (surface.z_unit.empty() ? "" : ", z in " + surface.z_unit);
 }
 
@@ -283,11 +316,35 @@ JsonValue crs_json(const io::Crs& crs) {
     return value.set("name", crs.name()).set("unit", crs.unit()).set("wkt", crs.wkt());
 }
 
+JsonValue plane_json(const io::WorkingPlane& plane) {
+    JsonValue scale = JsonValue::object();
+    scale.set("least", plane.scale.least)
+        .set("greatest", plane.scale.greatest)
+        .set("distortion", plane.scale.distortion());
+    JsonValue json = JsonValue::object();
+    json.set("crs", crs_json(plane.crs)).set("origin", origin_word(plane.origin));
+    if (!plane.extent.is_empty) {
+        json.set("scale", scale).set("extent", plane.extent.text());
+    }
+    return json;
+}
+
+void set_lengths(JsonValue& json, const GroundMeasures& ground, const io::Crs& plane) {
+    json.set("lengths", ground.is_geodesic() ? "geodesic" : "planar");
+    json.set("length_unit", ground.is_geodesic() ? ground.unit : plane.unit());
+}
+
 JsonValue make_json(const JobReport& report, const Surface& surface) {
     const Box bounds = bounds_of(surface);
     JsonValue json = JsonValue::object();
-    json.set("version", TINWRIGHT_VERSION).set("command", report.command).set("crs", crs_json(surface.crs));
+    json.set("version", TINWRIGHT_VERSION)
+        .set("command", report.command)
+        .set("crs", crs_json(surface.output_crs));
     json.set("bounds", JsonValue::array_of({bounds.x_min, bounds.y_min, bounds.x_max, bounds.y_max}));
+    if (surface.crs.is_known()) {
+        json.set("working_crs", plane_json(surface.plane));
+    }
+    set_lengths(json, surface.ground, surface.crs);
     if (surface.report) {
         json.set("samples", surface.report->samples);
     }
@@ -329,6 +386,12 @@ std::string report_text(const JobReport& report, const Surface& surface, const R
     };
     add("CRS", crs_line(surface));
     const Box bounds = bounds_of(surface);
+    if (is_plane_told(surface)) {
+        add("plane", surface.plane.text());
+    }
+    if (surface.ground.is_geodesic()) {
+        add("lengths", "geodesic, " + surface.ground.unit);
+    }
     add("extent", decimal_text(bounds.x_min) + " " + decimal_text(bounds.y_min) + " " +
                       decimal_text(bounds.x_max) + " " + decimal_text(bounds.y_max));
     add("quantum", quantum_line(surface.tin.lattice));

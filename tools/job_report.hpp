@@ -55,6 +55,12 @@ std::string report_text(const JobReport& report, const Surface& surface, const R
 /// Code, name, unit and WKT; null when unknown.
 JsonValue crs_json(const io::Crs& crs);
 
+/// The object `working_crs` of docs/json.md.
+JsonValue plane_json(const io::WorkingPlane& plane);
+
+/// Sets the keys `lengths` and `length_unit`.
+void set_lengths(JsonValue& json, const GroundMeasures& ground, const io::Crs& plane);
+
 /// Largest resident memory of this process so far, bytes.
 std::size_t peak_memory_bytes();
 

@@ -18,16 +18,17 @@ struct MeasureWords {
     const char* unit;
 };
 
-MeasureWords words_of(FaceMeasure measure) {
+/// Of the ground the unit is told.
+MeasureWords words_of(FaceMeasure measure, bool is_geodesic) {
     switch (measure) {
         case FaceMeasure::LargestAngle:
             return {"largest_angle_deg", "largest angle", " deg"};
         case FaceMeasure::Slope:
             return {"slope_deg", "slope", " deg"};
         case FaceMeasure::LongestEdge:
-            return {"longest_edge", "longest edge", ""};
+            return {"longest_edge", "longest edge", is_geodesic ? " metre" : ""};
         case FaceMeasure::Area:
-            return {"area", "area", ""};
+            return {"area", "area", is_geodesic ? " square metre" : ""};
     }
     return {"", "", ""};
 }
@@ -55,9 +56,12 @@ const char* kind_name(io::SampleSlice::Kind kind) {
     return "";
 }
 
-std::array<Point3, 3> corners_of(const Tin& tin, FaceId face) {
+/// As they are written.
+std::array<Point3, 3> corners_of(const Tin& tin, const io::OutputPositions& positions, FaceId face) {
     const auto& v = tin.mesh.face(face).vertex;
-    return {tin.position(v[0]), tin.position(v[1]), tin.position(v[2])};
+    std::array<Point3, 3> corners{tin.position(v[0]), tin.position(v[1]), tin.position(v[2])};
+    positions.apply_to(corners);
+    return corners;
 }
 
 /// The bins from the first to the last that hold something.
@@ -82,11 +86,12 @@ std::string histogram_lines(const Histogram& histogram, const char* unit) {
     return lines;
 }
 
-std::string worst_lines(const Tin& tin, const MeasureSummary& summary, const char* unit) {
+std::string worst_lines(const Tin& tin, const io::OutputPositions& positions, const MeasureSummary& summary,
+                        const char* unit) {
     std::string lines = "    greatest:\n";
     for (const FaceValue& face : summary.worst) {
         lines += "      " + short_number(face.value) + unit + " at";
-        for (const Point3& corner : corners_of(tin, face.face)) {
+        for (const Point3& corner : corners_of(tin, positions, face.face)) {
             lines += " (" + decimal_text(corner.x) + " " + decimal_text(corner.y) + " " +
                      decimal_text(corner.z) + ")";
         }
@@ -95,11 +100,11 @@ std::string worst_lines(const Tin& tin, const MeasureSummary& summary, const cha
     return lines;
 }
 
-JsonValue worst_json(const Tin& tin, const MeasureSummary& summary) {
+JsonValue worst_json(const Tin& tin, const io::OutputPositions& positions, const MeasureSummary& summary) {
     JsonValue list = JsonValue::array();
     for (const FaceValue& face : summary.worst) {
         JsonValue corners = JsonValue::array();
-        for (const Point3& corner : corners_of(tin, face.face)) {
+        for (const Point3& corner : corners_of(tin, positions, face.face)) {
             corners.append(JsonValue::array_of({corner.x, corner.y, corner.z}));
         }
         list.append(JsonValue::object()
@@ -155,19 +160,22 @@ void add_content_json(JsonValue& json, const Surface& surface) {
     }
 }
 
-std::string quality_text(const Tin& tin, const QualityReport& quality) {
+std::string quality_text(const Surface& surface, const QualityReport& quality) {
+    const io::OutputPositions positions = surface.output_positions();
     std::string text;
     for (const MeasureSummary& summary : quality.summaries) {
-        const MeasureWords words = words_of(summary.measure);
+        const MeasureWords words = words_of(summary.measure, surface.ground.is_geodesic());
         text += std::string("  ") + words.title + ": from " + short_number(summary.minimum) + " to " +
                 short_number(summary.maximum) + words.unit + ", median " + short_number(summary.median) +
                 ", 99 % up to " + short_number(summary.percentile_99) + "\n" +
-                histogram_lines(summary.histogram, words.unit) + worst_lines(tin, summary, words.unit);
+                histogram_lines(summary.histogram, words.unit) +
+                worst_lines(surface.tin, positions, summary, words.unit);
     }
     return text;
 }
 
-void add_quality_json(JsonValue& json, const Tin& tin, const QualityReport& quality) {
+void add_quality_json(JsonValue& json, const Surface& surface, const QualityReport& quality) {
+    const io::OutputPositions positions = surface.output_positions();
     json.set("area", quality.area);
     JsonValue measures = JsonValue::object();
     for (const MeasureSummary& summary : quality.summaries) {
@@ -181,12 +189,13 @@ void add_quality_json(JsonValue& json, const Tin& tin, const QualityReport& qual
             .set("percentile_99", summary.percentile_99)
             .set("maximum", summary.maximum);
         if (summary.measure == FaceMeasure::Slope) {
-            measure.set("maximum_ratio", slope_ratio(tin, summary.worst.front().face));
+            measure.set("maximum_ratio", slope_ratio(surface.tin, summary.worst.front().face));
         }
         measure.set("histogram", JsonValue::object()
                                      .set("bounds", JsonValue::array_of(summary.histogram.bounds))
                                      .set("counts", counts));
-        measures.set(words_of(summary.measure).key, measure.set("worst", worst_json(tin, summary)));
+        const MeasureWords words = words_of(summary.measure, false);
+        measures.set(words.key, measure.set("worst", worst_json(surface.tin, positions, summary)));
     }
     json.set("measures", measures);
 }

@@ -16,8 +16,8 @@ std::string content_text(const Surface& surface);
 void add_content_json(JsonValue& json, const Surface& surface);
 
 /// Range, histogram and worst faces of each measure.
-std::string quality_text(const Tin& tin, const QualityReport& quality);
-void add_quality_json(JsonValue& json, const Tin& tin, const QualityReport& quality);
+std::string quality_text(const Surface& surface, const QualityReport& quality);
+void add_quality_json(JsonValue& json, const Surface& surface, const QualityReport& quality);
 
 }  // namespace tinwright::tools
 
