@@ -21,6 +21,7 @@ struct CheckedLines {
     LineCheckReport report;               ///< of what came in
     std::optional<LineCheckReport> left;  ///< after repairing; empty: not repaired
     std::string crossing_z;               ///< policy of the repair
+    io::Crs output_crs;                   ///< of what is written, and of locations in the end
 
     /// What there is to look at.
     [[nodiscard]] const LineCheckReport& remaining() const { return left ? *left : report; }

@@ -102,6 +102,18 @@ std::string open_edges_text(const ConformityReport& conformity) {
            (conformity.open_edges == 1 ? " edges of lines is" : " edges of lines are") + " not Delaunay";
 }
 
+/// Tells of locations in the file's own system.
+void bring_to(const io::Crs& own_crs, const io::TinFile& file, FaceReport& report) {
+    Box bounds;
+    for (const Point3& p : file.vertices) {
+        bounds.add(p.x, p.y);
+    }
+    const io::OutputPositions positions(file.crs, own_crs, bounds);
+    for (FaceViolation& violation : report.violations) {
+        positions.apply_to(std::span(&violation.location, 1));
+    }
+}
+
 }  // namespace
 
 CheckedSurface check_surface(const io::Source& source, const CrsOptions& crs,
@@ -111,6 +123,7 @@ CheckedSurface check_surface(const io::Source& source, const CrsOptions& crs,
     const double read = begin + (end - begin) * (optimality.criterion ? 0.1 : 0.5);
     const double audited = begin + (end - begin) * (optimality.criterion ? 0.2 : 1.0);
     io::TinFile file = io::read_tin_file(source, progress.stage(begin, read));
+    const io::Crs own_crs = file.crs;
     if (file.crs.is_geographic()) {
         io::ReadOptions placing;
         crs.apply_to(placing);
@@ -119,12 +132,13 @@ CheckedSurface check_surface(const io::Source& source, const CrsOptions& crs,
     CheckedSurface surface;
     surface.file = source.path;
     surface.layer = file.layer;
-    surface.crs = file.crs;
+    surface.crs = own_crs.is_known() ? own_crs : file.crs;
     surface.vertices = file.vertices.size();
     surface.report = check_either_way_round(file);
     if (surface.report.is_clean()) {
         surface.conformity = check_conformity(file);
     }
+    bring_to(surface.crs, file, surface.report);
     report_progress(progress.stage(read, audited), 1);
     if (optimality.criterion && surface.report.is_clean()) {
         surface.optimality = check_optimality(file, optimality, progress.stage(audited, end));

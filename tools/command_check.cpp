@@ -15,6 +15,7 @@
 #include "conflict_layer.hpp"
 #include "console.hpp"
 #include "repair.hpp"
+#include "written_places.hpp"
 
 namespace tinwright::tools {
 
@@ -185,6 +186,13 @@ CommandCheck::Targets CommandCheck::choose_targets(const Sorted& sorted) const {
     return targets;
 }
 
+io::OutputPositions CommandCheck::choose_output(CheckedLines& checked) const {
+    const io::WorkingPlane& plane =
+        checked.samples.crs.is_known() ? checked.samples.plane : checked.lines.plane;
+    checked.output_crs = audit_crs(crs, plane);
+    return positions_of(checked.lines, checked.samples, plane.crs, checked.output_crs);
+}
+
 CheckedLines CommandCheck::check_lines_and_samples(const Sorted& sorted, const Targets& targets,
                                                    Console& console, std::vector<std::string>& outputs) {
     const double begin = sorted.tins.empty() ? 0 : kTinShare;
@@ -218,9 +226,13 @@ CheckedLines CommandCheck::check_lines_and_samples(const Sorted& sorted, const T
         options.progress = console.progress().stage(share(0.5), 1);
         checked.report = check_lines(checked.lines.lines, checked.samples.points, options);
     }
+    const io::OutputPositions positions = choose_output(checked);
+    bring_to(positions, checked.report.conflicts);
+    if (checked.left) {
+        bring_to(positions, checked.left->conflicts);
+    }
     if (!targets.conflicts.empty()) {
-        const io::Crs& working = checked.samples.crs.is_known() ? checked.samples.crs : checked.lines.crs;
-        write_conflicts(checked.report.conflicts, {checked.lines, checked.samples}, working,
+        write_conflicts(checked.report.conflicts, {checked.lines, checked.samples}, checked.output_crs,
                         targets.conflicts, output.overwrite, output.driver)
             ->commit();
         outputs.push_back(targets.conflicts);
@@ -237,10 +249,10 @@ void CommandCheck::repair(CheckedLines& checked, const Sorted& sorted, const Tar
     options.crossing_z = audit.crossing_z;
     LineRepair repaired = repair_lines_on_samples(checked.lines, checked.samples, options);
     note_actions(repaired.found.conflicts, repaired.left.conflicts);
-    const io::Crs& working = checked.samples.crs.is_known() ? checked.samples.crs : checked.lines.crs;
+    bring_to(choose_output(checked), repaired.lines);
     OutputFolder folder(targets.folder);
-    for (const std::string& written :
-         write_repair(repaired.lines, checked.lines, sorted.lines, plan, working, output.overwrite)) {
+    for (const std::string& written : write_repair(repaired.lines, checked.lines, sorted.lines, plan,
+                                                   checked.output_crs, output.overwrite)) {
         console.say("tinwright check: wrote " + written + "\n");
     }
     folder.keep();

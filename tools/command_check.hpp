@@ -52,6 +52,8 @@ class CommandCheck : public Command {
     [[nodiscard]] Targets choose_targets(const Sorted& sorted) const;
     [[nodiscard]] CheckedLines check_lines_and_samples(const Sorted& sorted, const Targets& targets,
                                                        Console& console, std::vector<std::string>& outputs);
+    /// Sets the system that is written.
+    io::OutputPositions choose_output(CheckedLines& checked) const;
     void repair(CheckedLines& checked, const Sorted& sorted, const Targets& targets, Console& console,
                 std::vector<std::string>& outputs);
 };

@@ -14,6 +14,7 @@
 #include "options_lines.hpp"
 #include "point_layer.hpp"
 #include "water_layers.hpp"
+#include "written_places.hpp"
 
 namespace tinwright::tools {
 
@@ -203,6 +204,12 @@ void CommandHydro::report(const LeveledWater& leveled, const std::string& list,
     }
 }
 
+void CommandHydro::say_plane(const LeveledWater& leveled, Console& console) const {
+    if (const std::string plane = hydro_plane(leveled); !plane.empty()) {
+        console.say("tinwright " + name() + ": " + plane + "\n");
+    }
+}
+
 Outcome CommandHydro::run_check(Console& console) {
     check_target();
     LevelRequest request = sort_sources(console);
@@ -214,6 +221,7 @@ Outcome CommandHydro::run_check(Console& console) {
         check_against_raster(leveled, *raster,
                              {.tolerance = raster_tolerance, .progress = console.progress().stage(0.7, 1)});
     }
+    bring_to_output(leveled, crs);
     std::vector<std::string> outputs;
     if (!output.path.empty()) {
         write_findings(leveled, output.path, output.driver, output.overwrite,
@@ -222,6 +230,7 @@ Outcome CommandHydro::run_check(Console& console) {
         outputs.push_back(output.path);
     }
     console.progress().finish();
+    say_plane(leveled, console);
     console.say("tinwright hydro check: " + hydro_verdict(leveled) + "\n");
     if (leveled.raster) {
         console.say("tinwright hydro check: " + raster_verdict(*leveled.raster) + "\n");
@@ -231,7 +240,8 @@ Outcome CommandHydro::run_check(Console& console) {
 }
 
 Outcome CommandHydro::run_repair(Console& console) {
-    const LeveledWater leveled = read_leveled_water(sort_sources(console), console);
+    LeveledWater leveled = read_leveled_water(sort_sources(console), console);
+    bring_to_output(leveled, crs);
     const HydroPlan plan = plan_hydro(leveled, output.path, output.overwrite, all_sources());
     const std::vector<std::string> written =
         write_hydro(leveled, plan, output.overwrite, metadata_of(name(), water, leveled));
@@ -244,6 +254,7 @@ Outcome CommandHydro::run_repair(Console& console) {
     for (const std::string& line : written) {
         console.say("tinwright hydro repair: wrote " + line + "\n");
     }
+    say_plane(leveled, console);
     console.say("tinwright hydro repair: " + hydro_verdict(leveled) + "\n");
     console.say("tinwright hydro repair: " + hydro_repair_verdict(leveled) + "\n");
     report(leveled, hydro_lines(leveled, true), outputs);

@@ -55,6 +55,7 @@ class CommandHydro : public Command {
     [[nodiscard]] std::vector<io::Source> all_sources() const;
     void check_target() const;
     [[nodiscard]] std::string name() const;
+    void say_plane(const LeveledWater& leveled, Console& console) const;
     Outcome run_check(Console& console);
     Outcome run_repair(Console& console);
     void report(const LeveledWater& leveled, const std::string& list,

@@ -72,8 +72,9 @@ std::vector<std::string> write_hydro(const LeveledWater& leveled, const HydroPla
                                      const io::TinMetadata& metadata) {
     OutputFolder folder(plan.lines.folder);
     const std::unique_ptr<io::AtomicOutput> water = write_water(leveled, plan.water, overwrite, metadata);
-    std::vector<std::string> report = write_repair(downstream_lines(leveled), leveled.lines,
-                                                   leveled.line_sources, plan.lines, leveled.crs, overwrite);
+    std::vector<std::string> report =
+        write_repair(downstream_lines(leveled), leveled.lines, leveled.line_sources, plan.lines,
+                     leveled.output_crs, overwrite);
     water->commit();
     folder.keep();
     const auto counted = [](std::size_t count, const std::string& one, const std::string& many) {

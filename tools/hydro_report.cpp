@@ -162,6 +162,12 @@ std::string hydro_lines(const LeveledWater& leveled, bool left_only) {
     return more.empty() ? list : list + "and " + more + " more\n";
 }
 
+std::string hydro_plane(const LeveledWater& leveled) {
+    return leveled.options.ground.is_geodesic()
+               ? "plane " + leveled.plane.text() + "; lengths geodesic, " + leveled.options.ground.unit
+               : std::string();
+}
+
 std::string hydro_verdict(const LeveledWater& leveled) {
     return inputs_text(leveled) + ": " + found_text(leveled.water.report.findings);
 }
@@ -193,7 +199,11 @@ JsonValue hydro_json(const LeveledWater& leveled, const std::string& command,
                     [&](const WaterFinding& finding) { findings.append(finding_json(finding, leveled)); });
     const std::size_t faults = count_hydro_faults(leveled, false);
     JsonValue json = JsonValue::object();
-    json.set("version", TINWRIGHT_VERSION).set("command", command).set("crs", crs_json(leveled.crs));
+    json.set("version", TINWRIGHT_VERSION).set("command", command).set("crs", crs_json(leveled.output_crs));
+    if (leveled.crs.is_known()) {
+        json.set("working_crs", plane_json(leveled.plane));
+    }
+    set_lengths(json, leveled.options.ground, leveled.crs);
     json.set("clean", faults == 0).set("faults", faults);
     if (is_repair) {
         json.set("faults_left", count_hydro_faults(leveled, true));

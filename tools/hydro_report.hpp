@@ -15,6 +15,8 @@ namespace tinwright::tools {
 std::size_t count_hydro_faults(const LeveledWater& leveled, bool left_only);
 /// One line a finding, of each kind a thousand at most; with `left_only` of faults that repairing leaves.
 std::string hydro_lines(const LeveledWater& leveled, bool left_only);
+/// Of geographic sources: the plane that was worked in, and that lengths are geodesic; else empty.
+std::string hydro_plane(const LeveledWater& leveled);
 /// "1 lake, 3 rivers and 300 samples: 2 rises", "3 rivers: clean".
 std::string hydro_verdict(const LeveledWater& leveled);
 /// Of the raster: what was compared, with what tolerance, and what was found.

@@ -8,6 +8,7 @@
 #include "tinwright/geometry/error.hpp"
 #include "tinwright/geometry/threads.hpp"
 #include "tinwright/io/gdal_session.hpp"
+#include "tinwright/io/geodesic_measures.hpp"
 #include "tinwright/io/transform_points.hpp"
 
 #include "located_errors.hpp"
@@ -170,9 +171,10 @@ LeveledWater read_leveled_water(const LevelRequest& request, Console& console) {
     }
     leveled.plane = leveled.samples.crs.is_known() ? leveled.samples.plane : leveled.lines.plane;
     leveled.crs = leveled.plane.crs;
+    leveled.options.ground = io::make_ground_measures(leveled.plane);
     warn_all(console, leveled.samples.warnings);
     warn_all(console, leveled.lines.warnings);
-    WaterOptions levels = request.options;
+    WaterOptions levels = leveled.options;
     levels.progress = stage(0.6, 1);
     run_located(leveled.samples, leveled.lines, [&] {
         run_with_threads(request.threads, [&] {

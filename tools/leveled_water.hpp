@@ -36,6 +36,9 @@ struct LeveledWater {
     WaterOptions options;
     Water water;
     std::optional<CheckedRaster> raster;
+    // Of what is written (`bring_to_output`), in which all that `water` and `raster` hold then is:
+    io::Crs output_crs;
+    std::vector<double> section_widths;  ///< on the ground; of `water.lines` behind those that came in
 
     /// Of the raster, where there is one; else of the water as it came.
     [[nodiscard]] std::vector<WaterFinding> findings() const;

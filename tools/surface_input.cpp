@@ -81,6 +81,8 @@ Inputs read_inputs(const SurfaceRequest& request, Console& console, double end) 
 /// Levels the water among the lines, which changes samples and lines.
 WaterSummary level_inputs(const SurfaceRequest& request, Inputs& inputs, const Progress& progress) {
     WaterOptions options = request.lines->water_options();
+    options.ground =
+        io::make_ground_measures(inputs.samples.crs.is_known() ? inputs.samples.plane : inputs.lines.plane);
     options.progress = progress;
     Water water;
     run_located(inputs.samples, inputs.lines, [&] {

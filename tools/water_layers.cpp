@@ -152,11 +152,10 @@ void add_sections(io::TinDataset& dataset, const LeveledWater& leveled) {
     for (std::size_t i = leveled.lines.lines.size(); i < water.lines.size(); ++i) {
         const std::vector<Point3>& points = water.lines[i].points;
         const Point3& a = points.front();
-        const Point3& b = points.back();
         layer.set(0, static_cast<std::int64_t>(layer.written()));
         set_id(layer, 1, id_of_line(water.origin[i], leveled));
         layer.set(3, a.z);
-        layer.set(4, std::hypot(b.x - a.x, b.y - a.y));
+        layer.set(4, leveled.section_widths[i - leveled.lines.lines.size()]);
         fill(layer.geometry<OGRLineString>(), points);
         layer.write();
     }
@@ -225,10 +224,11 @@ std::unique_ptr<io::AtomicOutput> write_layers(const LeveledWater& leveled, cons
     io::WriteTinOptions options;
     options.metadata = metadata;
     if (driver.name.starts_with("GeoJSON")) {
-        options.layer_options = {"COORDINATE_PRECISION=9"};
+        options.layer_options = {leveled.output_crs.is_geographic() ? "COORDINATE_PRECISION=12"
+                                                                    : "COORDINATE_PRECISION=9"};
     }
     auto output = std::make_unique<io::AtomicOutput>(target, overwrite);
-    io::TinDataset dataset(driver, output->path(), target, leveled.crs, options);
+    io::TinDataset dataset(driver, output->path(), target, leveled.output_crs, options);
     add_layers(dataset);
     dataset.add_metadata_table();
     dataset.close();

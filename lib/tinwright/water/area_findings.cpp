@@ -100,7 +100,7 @@ std::vector<WaterFinding> find_passages(const WaterNetwork& network, std::span<c
         const auto chain = network.chain(line);
         for (std::size_t i = 0; i < chain.size(); ++i) {
             const std::uint32_t v = chain[i];
-            chainage += i > 0 ? network.distance(chain[i - 1], v) : 0;
+            chainage += i > 0 ? network.told_distance(chain[i - 1], v) : 0;
             const std::uint32_t node = network.node_of[v];
             if (node == kNoNode || node >= network.first_section) {
                 continue;
@@ -172,7 +172,8 @@ std::vector<WaterFinding> find_unlevel_sections(const WaterNetwork& network, dou
                 finding.z = high;
                 finding.other_z = low;
                 finding.amount = high - low;
-                finding.length = section.width * network.lattice.quantum();
+                finding.length = network.ground.is_geodesic() ? network.told_distance(a, b)
+                                                              : section.width * network.lattice.quantum();
                 finding.is_repaired = true;
                 findings.push_back(finding);
             }

@@ -35,7 +35,7 @@ class ReachMaker {
         for (std::size_t i = 1; i < reach.points.size(); ++i) {
             const Point3& p = reach.points[i - 1];
             const Point3& q = reach.points[i];
-            reach.length += std::hypot(q.x - p.x, q.y - p.y);
+            reach.length += network_.ground.length({p.x, p.y}, {q.x, q.y});
         }
         reaches_.push_back(std::move(reach));
     }

@@ -41,7 +41,7 @@ std::vector<Course> find_courses(const WaterNetwork& network, const WaterFlow& f
         Course& course = courses.back();
         for (std::size_t i = 1; i < run.stops.size(); ++i) {
             course.chainages.push_back(course.chainages.back() +
-                                       network.distance(run.stops[i - 1], run.stops[i]));
+                                       network.told_distance(run.stops[i - 1], run.stops[i]));
             course.vertices.push_back(run.stops[i]);
         }
     }
@@ -155,12 +155,7 @@ void add_bank_rises(const WaterNetwork& network, const WaterFlow& flow, std::spa
                 bank.network.sections[run.stops[i] - bank.first_node].vertices.front();
             course.vertices.push_back(bank.rings[ring][number]);
             if (i > 0) {
-                double length = 0;
-                const std::vector<Point2>& path = run.paths[i - 1];
-                for (std::size_t k = 1; k < path.size(); ++k) {
-                    length += std::hypot(path[k].x - path[k - 1].x, path[k].y - path[k - 1].y);
-                }
-                course.chainages.push_back(course.chainages.back() + length * network.lattice.quantum());
+                course.chainages.push_back(course.chainages.back() + network.told_length(run.paths[i - 1]));
             }
         }
         RiseFinder rises(network, course, tolerance, findings);

@@ -102,8 +102,8 @@ class Leveler {
     }
 
     Water make() {
-        network_ =
-            make_water_network(lines_, lattice_, {out_.report.station_spacing, options_.station_spacing});
+        network_ = make_water_network(
+            lines_, lattice_, {out_.report.station_spacing, options_.station_spacing, options_.ground});
         report_progress(options_.progress, 0.2);
         lakes_.measure();
         report_progress(options_.progress, 0.4);
@@ -122,6 +122,7 @@ class Leveler {
         measure_changes();
         write_lines();
         report_banks();
+        measure_shores();
         sort_findings();
         report_progress(options_.progress, 1);
         return std::move(out_);
@@ -319,7 +320,7 @@ class Leveler {
         finding.z = high.z;
         finding.other_z = low.z;
         finding.amount = high.z - low.z;
-        finding.length = std::hypot(high.x - low.x, high.y - low.y);
+        finding.length = options_.ground.length({high.x, high.y}, {low.x, low.y});
         add(finding);
     }
 
@@ -339,11 +340,40 @@ class Leveler {
                 report.z_down = s == 0 ? level : std::min(report.z_down, level);
                 if (bank.network.sections[s].is_straight) {
                     ++report.sections;
-                    width += bank.network.sections[s].width * lattice_.quantum();
+                    width += width_of(bank, bank.network.sections[s]);
                 }
             }
             report.mean_width = report.sections > 0 ? width / static_cast<double>(report.sections) : 0;
             out_.report.banks.push_back(report);
+        }
+    }
+
+    /// Of a straight section.
+    [[nodiscard]] double width_of(const BankWater& bank, const BankSection& section) const {
+        if (!options_.ground.is_geodesic()) {
+            return section.width * lattice_.quantum();
+        }
+        const auto vertex = [&](std::size_t k) {
+            return bank.rings[section.vertices[k][0]][section.vertices[k][1]];
+        };
+        return network_.told_distance(vertex(0), vertex(1));
+    }
+
+    /// Shores are measured in the plane, where their lengths weigh levels; they are told on the ground.
+    void measure_shores() {
+        if (!options_.ground.is_geodesic()) {
+            return;
+        }
+        std::map<std::uint32_t, double> lengths;  // of polygons
+        for (const Breakline& line : lines_) {
+            for (std::size_t i = 1; i < line.points.size() && line.role == LineRole::Lake; ++i) {
+                const Point3& p = line.points[i - 1];
+                const Point3& q = line.points[i];
+                lengths[line.polygon] += options_.ground.length({p.x, p.y}, {q.x, q.y});
+            }
+        }
+        for (LakeLevel& lake : out_.report.lakes) {
+            lake.shore_length = lengths[lines_[lake.line].polygon];
         }
     }
 

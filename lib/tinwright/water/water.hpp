@@ -10,6 +10,7 @@
 
 #include "tinwright/breaklines/breakline.hpp"
 #include "tinwright/breaklines/noding.hpp"
+#include "tinwright/geometry/ground_measures.hpp"
 #include "tinwright/geometry/point.hpp"
 #include "tinwright/geometry/progress.hpp"
 #include "tinwright/water/isotonic_regression.hpp"
@@ -59,6 +60,8 @@ struct WaterOptions {
     CrossingPolicy meeting_levels = CrossingPolicy::Error;
     /// For audits: lakes that meet do not end the work under Error; the lower level is taken.
     bool keeps_faults = false;
+    /// Of lengths and chainages in the report. Widths and distances that decide something are of the plane.
+    GroundMeasures ground{};
     Progress progress;
 };
 
@@ -67,7 +70,7 @@ struct LakeLevel {
     std::uint32_t line = 0;   ///< index of its first ring
     double level = 0;         ///< unit of z
     bool is_own = false;      ///< from its own z, rather than from samples
-    double shore_length = 0;  ///< CRS units
+    double shore_length = 0;  ///< on the ground
     std::size_t samples_inside = 0;
     std::size_t samples_on_shore = 0;  ///< no farther outside than `shore_width`
     std::size_t samples_under = 0;     ///< of these, below the level
@@ -87,7 +90,7 @@ struct Reach {
                                        ///< on, else the first; kNone: none does
     std::uint32_t order = 1;           ///< after Strahler
     std::vector<Point3> points;        ///< CRS units
-    double length = 0;                 ///< CRS units
+    double length = 0;                 ///< on the ground
     double most_dug = 0;               ///< furthest below the elevations that it was made from, unit of z
     double most_lifted = 0;            ///< above them
 };
@@ -97,7 +100,7 @@ struct BanksReport {
     std::size_t sections = 0;
     double z_up = 0;  ///< highest and lowest level
     double z_down = 0;
-    double mean_width = 0;  ///< of straight sections, CRS units
+    double mean_width = 0;  ///< of straight sections, on the ground
 };
 
 struct WaterReport {

@@ -42,8 +42,8 @@ struct WaterFinding {
     double z = std::numeric_limits<double>::quiet_NaN();
     double other_z = std::numeric_limits<double>::quiet_NaN();
     double amount = 0;    ///< how much is wrong, unit of z, >= 0; 0 where it is not a question of how much
-    double chainage = 0;  ///< of `location` from the start of the river as it was drawn, CRS units
-    double length = 0;    ///< of a rise: from where it begins to where it ends, CRS units
+    double chainage = 0;  ///< of `location` from the start of the river as it was drawn, on the ground
+    double length = 0;    ///< of a rise: from where it begins to where it ends, on the ground
     /// Whether it is put right when a surface is made.
     bool is_repaired = false;
 };

@@ -302,6 +302,30 @@ double WaterNetwork::distance(std::uint32_t a, std::uint32_t b) const {
     return std::sqrt(squared_distance(key(a), key(b))) * lattice.quantum();
 }
 
+double WaterNetwork::told_distance(std::uint32_t a, std::uint32_t b) const {
+    return ground.is_geodesic() ? ground.length(lattice.position(key(a)), lattice.position(key(b)))
+                                : distance(a, b);
+}
+
+double WaterNetwork::told_length(std::span<const Point2> path) const {
+    double length = 0;
+    if (!ground.is_geodesic()) {
+        for (std::size_t k = 1; k < path.size(); ++k) {
+            length += std::hypot(path[k].x - path[k - 1].x, path[k].y - path[k - 1].y);
+        }
+        return length * lattice.quantum();
+    }
+    // Paths lead over places between the lattice's.
+    const Point2 origin = lattice.position({0, 0});
+    const auto place = [&](Point2 p) {
+        return Point2{origin.x + p.x * lattice.quantum(), origin.y + p.y * lattice.quantum()};
+    };
+    for (std::size_t k = 1; k < path.size(); ++k) {
+        length += ground.length(place(path[k - 1]), place(path[k]));
+    }
+    return length;
+}
+
 std::uint32_t WaterNetwork::bank_around(std::uint32_t line, std::uint32_t a, std::uint32_t b) const {
     const NodedPiece sought{std::min(a, b), std::max(a, b), line, 0};
     const auto place = std::lower_bound(noded.pieces.begin(), noded.pieces.end(), sought);
@@ -351,6 +375,7 @@ WaterNetwork make_water_network(std::span<const Breakline> lines, const Lattice&
                                 const NetworkOptions& options) {
     WaterNetwork network;
     network.lattice = lattice;
+    network.ground = options.ground;
     NetworkMaker(lines, options, network).make();
     return network;
 }

@@ -43,7 +43,7 @@ struct WaterRun {
     bool is_between_banks = false;
     std::uint32_t bank = 0;            ///< index in `banks`, where it is between them
     std::vector<std::uint32_t> stops;  ///< of rivers noded vertices, of banks nodes; two at least
-    double chainage = 0;     ///< of rivers: of the first stop along the line as it was drawn, CRS units
+    double chainage = 0;     ///< of rivers: of the first stop along the line as it was drawn, on the ground
     std::uint32_t from = 0;  ///< nodes of the first and the last stop
     std::uint32_t to = 0;
     std::vector<std::vector<Point2>> paths;  ///< of banks: the middle of the water between stops, in keys
@@ -61,6 +61,7 @@ struct BankStand {
 /// those that touch together; then the sections of banks; then the vertices of rivers that are in neither.
 struct WaterNetwork {
     Lattice lattice;
+    GroundMeasures ground;             ///< of lengths that are told
     std::vector<std::uint32_t> lines;  ///< index of each noded line in what came in
     std::vector<Breakline> prepared;   ///< the lines that were noded, stations and all
     NodedLines noded;
@@ -86,7 +87,9 @@ struct WaterNetwork {
             .subspan(noded.chain_start[line], noded.chain_start[line + 1] - noded.chain_start[line]);
     }
     [[nodiscard]] Key2 key(std::uint32_t vertex) const { return noded.keys[vertex]; }
-    [[nodiscard]] double distance(std::uint32_t a, std::uint32_t b) const;  ///< of vertices, CRS units
+    [[nodiscard]] double distance(std::uint32_t a, std::uint32_t b) const;       ///< of vertices, CRS units
+    [[nodiscard]] double told_distance(std::uint32_t a, std::uint32_t b) const;  ///< on the ground
+    [[nodiscard]] double told_length(std::span<const Point2> path) const;  ///< of a path in keys, likewise
     /// Index of the banks that the piece of a river between two vertices is between, or kNoNode.
     [[nodiscard]] std::uint32_t bank_around(std::uint32_t line, std::uint32_t a, std::uint32_t b) const;
     /// The node at a vertex; on banks the nearest section.
@@ -107,6 +110,7 @@ std::vector<std::uint32_t> find_node_lines(const WaterNetwork& network);
 struct NetworkOptions {
     double river_spacing = 0;            ///< of stations on rivers without z, CRS units
     std::optional<double> bank_spacing;  ///< of stations on banks; empty: half their mean width
+    GroundMeasures ground{};             ///< of lengths that are told
 };
 
 /// Nodes lines of water, divides banks by sections, numbers the nodes and finds the runs. `lines`: all that

@@ -31,7 +31,7 @@ class RiverRuns {
             const auto chain = out_.chain(line);
             double chainage = 0;
             for (std::size_t i = 0; i + 1 < chain.size();
-                 chainage += out_.distance(chain[i], chain[i + 1]), ++i) {
+                 chainage += out_.told_distance(chain[i], chain[i + 1]), ++i) {
                 const std::uint32_t v = chain[i];
                 const bool is_own = out_.node_of[v] != kNoNode && out_.node_of[v] >= out_.first_vertex;
                 if (!is_own || ways[v] != 2) {
