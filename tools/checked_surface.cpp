@@ -11,6 +11,7 @@
 #include "tinwright/geometry/decimal.hpp"
 #include "tinwright/geometry/lattice.hpp"
 #include "tinwright/io/atomic_output.hpp"
+#include "tinwright/io/output_positions.hpp"
 #include "tinwright/io/read_tin.hpp"
 #include "tinwright/io/tin_dataset.hpp"
 #include "tinwright/io/tin_drivers.hpp"
@@ -103,7 +104,7 @@ std::string open_edges_text(const ConformityReport& conformity) {
 }
 
 /// Tells of locations in the file's own system.
-void bring_to(const io::Crs& own_crs, const io::TinFile& file, FaceReport& report) {
+void bring_to(const io::Crs& own_crs, const io::TinFile& file, FaceCheckReport& report) {
     Box bounds;
     for (const Point3& p : file.vertices) {
         bounds.add(p.x, p.y);

@@ -11,6 +11,7 @@
 #include "tinwright/breaklines/breakline.hpp"
 #include "tinwright/breaklines/noding.hpp"
 #include "tinwright/delaunay/water_areas.hpp"
+#include "tinwright/geometry/ground_measures.hpp"
 #include "tinwright/geometry/lattice.hpp"
 #include "tinwright/water/banks.hpp"
 #include "tinwright/water/water_finding.hpp"
