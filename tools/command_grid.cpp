@@ -242,6 +242,7 @@ Outcome CommandGrid::run() {
     }
     options.metadata = output_metadata("grid", surface, triangulation, lines, reading_options(surface));
     options.gridding.find_places = placing.find_places;
+    options.gridding.ground = surface.ground;
     if (products.z_factor_text.empty()) {
         options.gridding.z_factor = surface.z_factor;
     }

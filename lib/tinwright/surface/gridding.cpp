@@ -51,6 +51,7 @@ struct SurfaceGridder::State {
     std::unique_ptr<Interpolator> faces;  ///< where no surface was given
     const Interpolator* surface;
     std::optional<SampleTree> samples;
+    std::optional<QueryLattice> places;  ///< with `samples`
     std::vector<std::uint32_t> face_numbers;
     std::vector<double> column_at;
     std::vector<double> row_at;
@@ -93,6 +94,7 @@ struct SurfaceGridder::State {
     template <class Value>
     std::int64_t fill_placed(std::int64_t band, std::span<const std::span<Value>> values, Value nodata);
     SurfaceReading read(Worker& worker, const SurfacePlace& place) const;
+    [[nodiscard]] double distance_to(VertexId v, Key2 at) const;
     template <class Value>
     void set_values(std::span<const std::span<Value>> values, std::size_t cell, Value nodata,
                     const SurfaceReading& reading, const SurfacePlace& place, Worker& worker) const {
@@ -141,6 +143,7 @@ SurfaceGridder::State::State(const Tin& of, const Interpolator* read_by, const G
     }
     if (asks_for(Product::NearestDistance)) {
         samples.emplace(tin);
+        places.emplace(tin);
     }
     if (asks_for(Product::FaceNumber)) {
         face_numbers = number_terrain(tin.mesh);
@@ -154,6 +157,14 @@ SurfaceReading SurfaceGridder::State::read(Worker& worker, const SurfacePlace& p
         return reading;
     }
     return {has_elevation && !is_scanned ? worker.reader->elevation(place) : 0, {}};
+}
+
+double SurfaceGridder::State::distance_to(VertexId v, Key2 at) const {
+    if (!options.ground.is_geodesic()) {
+        return samples->distance(at, v);
+    }
+    const Point3 p = tin.position(v);
+    return options.ground.length(places->position(at), {p.x, p.y});
 }
 
 double SurfaceGridder::State::value_of(Product product, const SurfaceReading& reading,
@@ -173,7 +184,7 @@ double SurfaceGridder::State::value_of(Product product, const SurfaceReading& re
             return hillshade_of(reading.gradient, options.light);
         case Product::NearestDistance:
             worker.nearest = samples->nearest(place.at, worker.nearest);
-            return samples->distance(place.at, *worker.nearest);
+            return distance_to(*worker.nearest, place.at);
         case Product::FaceNumber:
             break;
     }

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "tinwright/geometry/ground_measures.hpp"
 #include "tinwright/surface/grid.hpp"
 #include "tinwright/surface/interpolator.hpp"
 #include "tinwright/surface/products.hpp"
@@ -74,6 +75,7 @@ struct GriddingOptions {
     /// Empty: the raster lies in the TIN's plane. Else gradients, aspects and light are told by the raster's
     /// own north and the direction at a right angle east of it.
     FindCellPlaces find_places{};
+    GroundMeasures ground{};  ///< of the distance to the nearest sample, nearest in the plane
 };
 
 /// Fills a raster with what a surface says at its cell centres, band of rows by band of rows.
