@@ -14,6 +14,10 @@
 #include "options_sources.hpp"
 #include "options_talk.hpp"
 
+namespace tinwright::io {
+class OutputPositions;
+}
+
 namespace tinwright::tools {
 
 class Console;
