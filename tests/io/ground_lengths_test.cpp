@@ -177,7 +177,8 @@ TEST_SUITE("io/ground_lengths") {
                         for (unsigned i = 0; i < 3 && is_kept; ++i) {
                             const Point3 a = tin.position(tin.mesh.vertex({f}, i));
                             const Point3 b = tin.position(tin.mesh.vertex({f}, next_corner(i)));
-                            is_kept = geodesic({a.x * unit, a.y * unit}, {b.x * unit, b.y * unit}) <= limit;
+                            is_kept = geodesic(Point2{a.x * unit, a.y * unit},
+                                               Point2{b.x * unit, b.y * unit}) <= limit;
                         }
                         expected += is_kept ? 1U : 0U;
                     }
