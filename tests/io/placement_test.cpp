@@ -216,14 +216,17 @@ TEST_SUITE("io/placement") {
     }
 
     TEST_CASE("axes in the authority's order are put right") {
-        const MemoryFile points("ne.csv", "id,a,b,z\n1,60.5,27,5\n2,61,28,6\n");
-        const MemoryFile layer("ne.vrt",
-                               "<OGRVRTDataSource><OGRVRTLayer name=\"ne\"><SrcDataSource>" + points.path() +
-                                   "</SrcDataSource><GeometryType>wkbPoint25D</GeometryType>"
-                                   "<LayerSRS dataAxisToSRSAxisMapping=\"1,2\">EPSG:4326</LayerSRS>"
-                                   "<GeometryField encoding=\"PointFromColumns\" x=\"a\" y=\"b\" z=\"z\"/>"
-                                   "</OGRVRTLayer></OGRVRTDataSource>");
-        const Samples samples = read(layer.path());
+        std::string features;
+        for (const char* const position : {"60.5 27 5", "61 28 6"}) {
+            features += std::string("<gml:featureMember><ogr:p><ogr:geom><gml:Point ") +
+                        "srsName=\"urn:ogc:def:crs:EPSG::4326\" srsDimension=\"3\"><gml:pos>" + position +
+                        "</gml:pos></gml:Point></ogr:geom></ogr:p></gml:featureMember>";
+        }
+        const MemoryFile file("ne.gml",
+                              "<ogr:FeatureCollection xmlns:ogr=\"http://ogr.maptools.org/\" "
+                              "xmlns:gml=\"http://www.opengis.net/gml\">" +
+                                  features + "</ogr:FeatureCollection>");
+        const Samples samples = read(file.path() + ",oo=INVERT_AXIS_ORDER_IF_LAT_LONG=NO");
         CHECK(samples.points == read_lon_lat("27,60.5,5\n28,61,6\n").points);
     }
 
