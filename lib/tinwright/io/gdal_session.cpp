@@ -81,7 +81,14 @@ struct GdalMessageHandler {
 
 void register_drivers() {
     static std::once_flag once;
-    std::call_once(once, [] { GDALAllRegister(); });
+    std::call_once(once, [] {
+        GDALAllRegister();
+        // Else GDAL takes another system for a deprecated one, on another datum even (EPSG:2192 becomes
+        // EPSG:2154).
+        if (CPLGetConfigOption("OSR_USE_NON_DEPRECATED", nullptr) == nullptr) {
+            CPLSetConfigOption("OSR_USE_NON_DEPRECATED", "NO");
+        }
+    });
 }
 
 GdalMessages::GdalMessages() : state_(new State) {

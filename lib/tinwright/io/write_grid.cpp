@@ -368,6 +368,21 @@ void check_grid_target(const std::string& target, const WriteGridOptions& option
 
 namespace {
 
+/// What a unit of the raster's CRS is in the TIN's plane, in the middle of the raster: shading compares
+/// cells' sizes with elevations, and cells may be in degrees.
+double plane_units_per_raster_unit(const GridGeometry& grid, const GriddingOptions& gridding) {
+    if (!gridding.find_places) {
+        return 1;
+    }
+    CellPlace here;
+    gridding.find_places(grid.rows / 2, grid.columns / 2, {&here, 1});
+    CellPlace above;
+    gridding.find_places(std::max<std::int64_t>(0, grid.rows / 2 - 1), grid.columns / 2, {&above, 1});
+    const double scale =
+        std::hypot(here.position.x - above.position.x, here.position.y - above.position.y) / grid.cell_height;
+    return scale > 0 && std::isfinite(scale) ? scale : 1;
+}
+
 /// A raster and its preview, complete but under temporary names until both are committed.
 class PendingGrid {
   public:
@@ -384,7 +399,8 @@ class PendingGrid {
         tbb::task_arena arena(count_threads(options.threads));
         arena.execute([&] { written = GridWriter(tin, crs, grid, target_, options).write(output_.path()); });
         if (preview_) {
-            write_preview(output_.path(), preview_->path(), preview_->target(), choose_z_factor(tin));
+            write_preview(output_.path(), preview_->path(), preview_->target(),
+                          choose_z_factor(tin) / plane_units_per_raster_unit(grid, options.gridding));
         }
         return written;
     }
