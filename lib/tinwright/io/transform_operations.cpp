@@ -52,6 +52,17 @@ void note_grids(PJ_CONTEXT* context, Operation& operation) {
     }
 }
 
+/// Grids of definitions that files and users write themselves may be lists, or optional ("@null").
+void forgive_optional_grids(PJ_CONTEXT* context, Operation& operation) {
+    if (operation.missing_grids.empty()) {
+        return;
+    }
+    const char* const steps = proj_as_proj_string(context, operation.object.get(), PJ_PROJ_5, nullptr);
+    if (steps != nullptr && ProjObject(proj_create(context, steps))) {
+        operation.missing_grids.clear();
+    }
+}
+
 void note_epochs(PJ_CONTEXT* context, Operation& operation) {
     const char* const steps = proj_as_proj_string(context, operation.object.get(), PJ_PROJ_5, nullptr);
     if (steps == nullptr) {
@@ -81,6 +92,7 @@ Operation describe(PJ_CONTEXT* context, ProjObject object) {
     operation.is_ballpark =
         proj_coordoperation_has_ballpark_transformation(context, operation.object.get()) != 0;
     note_grids(context, operation);
+    forgive_optional_grids(context, operation);
     note_epochs(context, operation);
     return operation;
 }
@@ -129,8 +141,14 @@ std::vector<Operation> find_operations(PJ_CONTEXT* context, const PJ* source, co
     std::vector<Operation> operations;
     const int count = list ? proj_list_get_count(list.get()) : 0;
     for (int i = 0; i < count; ++i) {
-        if (ProjObject object(proj_list_get(context, list.get(), i)); object) {
-            operations.push_back(describe(context, std::move(object)));
+        ProjObject object(proj_list_get(context, list.get(), i));
+        if (!object) {
+            continue;
+        }
+        Operation operation = describe(context, std::move(object));
+        // PROJ takes grids that its database does not know for available.
+        if (query.has_missing_grids || operation.missing_grids.empty()) {
+            operations.push_back(std::move(operation));
         }
     }
     return operations;
