@@ -264,8 +264,12 @@ Outcome CommandGrid::run() {
     report.command = "grid";
     report.domain = is_tin ? "as in the TIN" : triangulation.domain_name();
     report.duplicate_policy = triangulation.policy_name();
-    report.raster = RasterReport{grid, written, !like && !raster.request.resolution && !raster.request.size,
-                                 interpolation.method_text, ground_size(surface, grid)};
+    report.raster = RasterReport{grid,
+                                 written,
+                                 !like && !raster.request.resolution && !raster.request.size,
+                                 interpolation.method_text,
+                                 ground_size(surface, grid),
+                                 surface.output_crs.unit()};
     if (talk.verbose && !surface.is_written_in_plane()) {
         report.details.emplace_back("cells", "centres brought from " + surface.output_crs.name() + " to " +
                                                  surface.crs.name() + ", to " +

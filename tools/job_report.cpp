@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 
 #include <sys/resource.h>
 
@@ -217,7 +218,7 @@ std::string tin_line(const JobReport& report, const Surface& surface) {
 std::string length_text(double value) {
     std::array<char, 48> text{};
     std::snprintf(text.data(), text.size(), "%.10g", value);
-    return text.data();
+    return decimal_text(std::strtod(text.data(), nullptr));
 }
 
 /// Three digits.
@@ -236,13 +237,18 @@ std::string raster_line(const RasterReport& raster) {
     if (length_text(grid.cell_height) != size) {
         size += " x " + length_text(grid.cell_height);
     }
+    std::string more;
     if (raster.ground_size) {
-        size += " degree (on the ground in the middle " + short_text(raster.ground_size->x) + " x " +
-                short_text(raster.ground_size->y) + " m)";
+        size += " " + raster.unit;
+        more = short_text(raster.ground_size->x) + " x " + short_text(raster.ground_size->y) +
+               " m on the ground in the middle";
+    }
+    if (raster.is_resolution_chosen) {
+        more += std::string(more.empty() ? "" : ", ") + "chosen from the sample spacing";
     }
     return std::to_string(grid.columns) + " x " + std::to_string(grid.rows) + " cells of " + size +
-           (raster.is_resolution_chosen ? " (chosen from the sample spacing)" : "") + ", " + fixed(share, 1) +
-           " % with a value, nodata " + decimal_text(raster.written.nodata);
+           (more.empty() ? "" : " (" + more + ")") + ", " + fixed(share, 1) + " % with a value, nodata " +
+           decimal_text(raster.written.nodata);
 }
 
 std::string method_line(const RasterReport& raster) {

@@ -22,8 +22,9 @@ struct RasterReport {
     io::WrittenGrid written;
     bool is_resolution_chosen = false;  ///< by us, not by the user
     std::string method = "linear";
-    /// Metres that a cell in the middle measures, of rasters in degrees.
+    /// Metres that a cell in the middle measures, of rasters in a geographic system.
     std::optional<Point2> ground_size = std::nullopt;
+    std::string unit = {};  ///< of that system
 };
 
 /// What a finished command has to tell, once for people and once as JSON (docs/json.md).
