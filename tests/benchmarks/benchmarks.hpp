@@ -52,6 +52,8 @@ void run_natural_neighbor(const Settings& settings);
 void run_smooth(const Settings& settings);
 /// Coordinates of many points from one system to another.
 void run_transform(const Settings& settings);
+/// Rasters in another system than the surface's plane.
+void run_grid_crs(const Settings& settings);
 
 }  // namespace tinwright_benchmarks
 

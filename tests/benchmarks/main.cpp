@@ -51,13 +51,14 @@ constexpr std::array kBenchmarks{Benchmark{"delaunay", run_delaunay},
                                  Benchmark{"convergence", run_convergence},
                                  Benchmark{"natural_neighbor", run_natural_neighbor},
                                  Benchmark{"smooth", run_smooth},
-                                 Benchmark{"transform", run_transform}};
+                                 Benchmark{"transform", run_transform},
+                                 Benchmark{"grid_crs", run_grid_crs}};
 
 constexpr const char* kUsage =
     "usage: tinwright_benchmarks delaunay|raster|job|read|criteria|criteria_growth|criteria_worst|\n"
     "                            length|length_growth|length_worst|noding|constrained|conforming|contour|\n"
     "                            clough_tocher|accuracy|convergence|natural_neighbor|smooth|\n"
-    "                            transform\n"
+    "                            transform|grid_crs\n"
     "           [--rounds K] [--scale FRACTION] [--tinwright COMMAND] [--images FOLDER]\n"
     "           [--data FOLDER] [--sets NAME,...] [--methods METHOD[/GRADIENTS][@CRITERION[:ORDER]],...]\n"
     "Prints a table of docs/benchmarks.md or docs/interpolation.md. Medians of K interleaved runs (default "

@@ -148,7 +148,7 @@ class RasterPlaces {
         if (entry.blocks == nullptr) {
             entry.blocks =
                 std::make_shared<BlockRow>((exact_.grid().columns + kBlockCells - 1) / kBlockCells);
-            const std::shared_ptr<BlockRow> made = entry.blocks;
+            std::shared_ptr<BlockRow> made = entry.blocks;
             forget_some();
             return made;
         }
