@@ -80,7 +80,9 @@ TEST_SUITE("io/transform_control") {
             Control{"EPSG:4211", "EPSG:3001", -71, -2, 23764105.84, 679490.65, 0.01},
             // 5113, transverse Mercator to the south-west: x points west, y south
             Control{"EPSG:4148", "EPSG:2049", 21.5, -25, -50475.46, 2766147.25, 0.01},
-            // 5103, Lambert conformal conic with two standard parallels
+            // 5102 and 5103, Lambert conformal conic with one and two standard parallels; the first is
+            // deprecated
+            Control{"EPSG:4230", "EPSG:2192", 5, 58, 760722.92, 3457368.68, 0.03},
             Control{"EPSG:4313", "EPSG:31370", 5, 58, 187742.7, 969521.653, 0.03},
             Control{"EPSG:4313", "EPSG:31370", 11, 53, 595117.95, 430202.63, 0.03},
             // 5105, oblique Mercator
