@@ -207,6 +207,41 @@ void CommandGrid::check_targets(std::span<const std::string> targets,
     }
 }
 
+JobReport CommandGrid::make_report(const Surface& surface, const GridGeometry& grid,
+                                   const io::WrittenGrid& written) const {
+    JobReport report;
+    report.command = "grid";
+    report.duplicate_policy = triangulation.policy_name();
+    const bool is_resolution_chosen =
+        raster.like.empty() && !raster.request.resolution && !raster.request.size;
+    report.raster = RasterReport{grid,
+                                 written,
+                                 is_resolution_chosen,
+                                 interpolation.method_text,
+                                 ground_size(surface, grid),
+                                 surface.output_crs.unit()};
+    if (talk.verbose && !surface.is_written_in_plane()) {
+        report.details.emplace_back("cells", "centres brought from " + surface.output_crs.name() + " to " +
+                                                 surface.crs.name() + ", to " +
+                                                 decimal_text(io::kCellPlaceError) +
+                                                 " of a cell, and the surface read there");
+    }
+    report.output_driver = written.driver;
+    return report;
+}
+
+std::vector<std::string> CommandGrid::outputs(std::span<const std::string> targets,
+                                              const Surface& surface) const {
+    std::vector<std::string> files(targets.begin(), targets.end());
+    if (!raster.preview.empty()) {
+        files.push_back(raster.preview);
+    }
+    if (surface.conflicts) {
+        files.push_back(lines.conflicts);
+    }
+    return files;
+}
+
 Outcome CommandGrid::run() {
     Console console("grid", talk);
     const std::vector<std::string> targets = products.targets(output.path);
@@ -260,30 +295,9 @@ Outcome CommandGrid::run() {
         console.warn("no cell has a value: no centre of a cell lies on the surface");
     }
 
-    JobReport report;
-    report.command = "grid";
+    JobReport report = make_report(surface, grid, written);
     report.domain = is_tin ? "as in the TIN" : triangulation.domain_name();
-    report.duplicate_policy = triangulation.policy_name();
-    report.raster = RasterReport{grid,
-                                 written,
-                                 !like && !raster.request.resolution && !raster.request.size,
-                                 interpolation.method_text,
-                                 ground_size(surface, grid),
-                                 surface.output_crs.unit()};
-    if (talk.verbose && !surface.is_written_in_plane()) {
-        report.details.emplace_back("cells", "centres brought from " + surface.output_crs.name() + " to " +
-                                                 surface.crs.name() + ", to " +
-                                                 decimal_text(io::kCellPlaceError) +
-                                                 " of a cell, and the surface read there");
-    }
-    report.outputs = targets;
-    if (!raster.preview.empty()) {
-        report.outputs.push_back(raster.preview);
-    }
-    if (surface.conflicts) {
-        report.outputs.push_back(lines.conflicts);
-    }
-    report.output_driver = written.driver;
+    report.outputs = outputs(targets, surface);
     console.say(report_text(report, surface, {talk.verbose, talk.verbose}));
     if (talk.json) {
         print_result(make_json(report, surface).text());

@@ -21,6 +21,7 @@
 
 namespace tinwright::tools {
 
+struct JobReport;
 struct Surface;
 class Console;
 
@@ -63,6 +64,11 @@ class CommandGrid : public Command {
     [[nodiscard]] GridGeometry grid_for(const Surface& surface) const;
     /// Where that is in the surface's plane; as made where they are the same.
     [[nodiscard]] RasterPlacing placing_for(const Surface& surface, const GridGeometry& grid) const;
+    /// But for its domain and outputs.
+    [[nodiscard]] JobReport make_report(const Surface& surface, const GridGeometry& grid,
+                                        const io::WrittenGrid& written) const;
+    [[nodiscard]] std::vector<std::string> outputs(std::span<const std::string> targets,
+                                                   const Surface& surface) const;
 };
 
 }  // namespace tinwright::tools
