@@ -16,6 +16,8 @@
 #include "tinwright/io/tin_dataset.hpp"
 #include "tinwright/io/tin_drivers.hpp"
 
+#include "surface_input.hpp"
+
 namespace tinwright::tools {
 
 namespace {
@@ -142,7 +144,8 @@ CheckedSurface check_surface(const io::Source& source, const CrsOptions& crs,
     bring_to(surface.crs, file, surface.report);
     report_progress(progress.stage(read, audited), 1);
     if (optimality.criterion && surface.report.is_clean()) {
-        surface.optimality = check_optimality(file, optimality, progress.stage(audited, end));
+        surface.optimality =
+            check_optimality(file, optimality, progress.stage(audited, end), z_factor_of(file, crs));
     }
     surface.face_ids = std::move(file.face_ids);
     return surface;

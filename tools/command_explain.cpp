@@ -71,9 +71,7 @@ Outcome CommandExplain::run() {
     const bool is_tin = is_existing_tin(request);
     const Surface surface =
         is_tin ? read_existing_tin(request, console) : triangulate_sources(request, console);
-    if (const std::string warning = slope_warning(surface.crs, surface.z_unit); !warning.empty()) {
-        console.warn(warning);
-    }
+    warn_of_slopes(surface, console);
     const io::Crs place_crs = surface.place_crs(crs);
     const ExplainOptions options{at,
                                  place_in_plane(at, place_crs, surface.crs),

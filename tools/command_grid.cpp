@@ -143,12 +143,11 @@ RasterPlacing CommandGrid::placing_for(const Surface& surface, const GridGeometr
     return placing;
 }
 
-std::vector<std::string> CommandGrid::gradient_warnings(const Surface& surface) const {
-    if (!products.has_gradients() || !products.z_factor_text.empty()) {
-        return {};
+void CommandGrid::set_slopes(const Surface& surface, GriddingOptions& options, Console& console) const {
+    if (products.has_gradients() && products.z_factor_text.empty()) {
+        options.z_factor = surface.z_factor;
+        warn_of_slopes(surface, console);
     }
-    const std::string warning = slope_warning(surface.crs, surface.z_unit);
-    return warning.empty() ? std::vector<std::string>() : std::vector{warning + "; --z-factor converts"};
 }
 
 io::WrittenGrid CommandGrid::write(const Surface& surface, const GridGeometry& grid,
@@ -272,9 +271,7 @@ Outcome CommandGrid::run() {
         console.warn("the source carries no CRS, so the raster has none, though --like " +
                      io::quoted(raster.like) + " is in " + like_crs.name() + "; --source-crs assigns one");
     }
-    for (const std::string& warning : gradient_warnings(surface)) {
-        console.warn(warning);
-    }
+    set_slopes(surface, options.gridding, console);
     options.metadata = output_metadata("grid", surface, triangulation, lines, reading_options(surface));
     options.gridding.find_places = placing.find_places;
     options.gridding.ground = surface.ground;

@@ -51,8 +51,8 @@ class CommandGrid : public Command {
     [[nodiscard]] io::WriteGridOptions write_options() const;
     /// Throws before any work is done where something cannot be written, or would be over a source.
     void check_targets(std::span<const std::string> targets, const io::WriteGridOptions& options) const;
-    /// What the user has to be warned of when slopes are asked for.
-    [[nodiscard]] std::vector<std::string> gradient_warnings(const Surface& surface) const;
+    /// Makes slopes ratios, unless --z-factor was given; warns where units are in doubt.
+    void set_slopes(const Surface& surface, GriddingOptions& options, Console& console) const;
     /// Prepares the surface and writes the raster; `options` gets the surface.
     io::WrittenGrid write(const Surface& surface, const GridGeometry& grid,
                           std::span<const std::string> targets, io::WriteGridOptions& options) const;

@@ -44,8 +44,10 @@ Outcome CommandInfo::run() {
         surface.flat_faces = count_in_file(surface.tin, surface.is_water_face, surface.metadata);
     }
     QualityReport quality;
-    run_with_threads(triangulation.threads,
-                     [&] { quality = assess_quality(surface.tin, kWorstFaces, surface.ground); });
+    run_with_threads(triangulation.threads, [&] {
+        quality = assess_quality(surface.tin, kWorstFaces, surface.ground, surface.z_factor);
+    });
+    warn_of_slopes(surface, console);
     console.progress().finish();
 
     JobReport report;

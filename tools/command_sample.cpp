@@ -203,9 +203,7 @@ Outcome CommandSample::run() {
     const bool is_tin = is_existing_tin(request);
     const Surface surface =
         is_tin ? read_existing_tin(request, console) : triangulate_sources(request, console);
-    if (const std::string warning = slope_warning(surface.crs, surface.z_unit); !warning.empty()) {
-        console.warn(warning);
-    }
+    warn_of_slopes(surface, console);
     const Queries queries = read_places(lines_wanted, surface, console);
     std::string driver;
     const SampledCounts counts = write_samples(queries, surface, console, driver);

@@ -214,6 +214,8 @@ Outcome CommandTin::run_tin(Console& console) {
                                  .keep_ids = keep_ids,
                                  .progress_end = 0.7};
     Surface surface = triangulate_sources(request, console);
+    const io::TinMetadata units = unit_metadata(surface);
+    options.metadata.insert(options.metadata.end(), units.begin(), units.end());
     const io::TinMetadata criterion = criterion_metadata(surface.criterion);
     options.metadata.insert(options.metadata.end(), criterion.begin(), criterion.end());
     const io::TinMetadata of_lines = lines_metadata(surface.lines);
@@ -234,6 +236,7 @@ Outcome CommandTin::run_tin(Console& console) {
         });
         options.metadata.emplace_back("TINWRIGHT_WORKING_CRS", recorded_crs(surface.crs));
     }
+    options.z_factor = surface.z_factor;
     options.origins = std::move(surface.origins.vertices);
     options.lines = std::move(surface.origins.lines);
     options.progress = console.progress().stage(0.7, 1);

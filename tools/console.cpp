@@ -31,6 +31,12 @@ void Console::warn(const std::string& text) {
     std::cerr << speaker(command_) << "warning: " << text << "\n";
 }
 
+void Console::warn_once(const std::string& text) {
+    if (said_once_.insert(text).second) {
+        warn(text);
+    }
+}
+
 void Console::say(const std::string& lines) {
     if (!options_.quiet) {
         progress_.break_line();

@@ -1,6 +1,7 @@
 #ifndef TINWRIGHT_TOOLS_CONSOLE_HPP
 #define TINWRIGHT_TOOLS_CONSOLE_HPP
 
+#include <set>
 #include <string>
 
 #include "tinwright/geometry/error.hpp"
@@ -20,6 +21,8 @@ class Console {
 
     /// "tinwright grid: warning: text", also when quiet.
     void warn(const std::string& text);
+    /// The same, if it has not been said already.
+    void warn_once(const std::string& text);
     /// Lines of the report, each with its newline; nothing when quiet.
     void say(const std::string& lines);
 
@@ -27,6 +30,7 @@ class Console {
     std::string command_;
     TalkOptions options_;
     ProgressLine progress_;
+    std::set<std::string> said_once_;
 };
 
 /// The reader of standard output has gone away: no fault worth a message.

@@ -127,8 +127,12 @@ JsonValue proven_json(const std::string& proven) {
 
 }  // namespace
 
+double told_factor(Criterion criterion, double z_factor) {
+    return criterion == Criterion::Slope ? z_factor : 1;
+}
+
 CriterionReport make_criterion_report(const TriangulationOptions& options, const TriangulateReport& result,
-                                      const io::Crs& crs) {
+                                      const io::Crs& crs, double z_factor) {
     CriterionReport report;
     report.name = options.criterion_name();
     report.norm = options.norm_name();
@@ -137,10 +141,14 @@ CriterionReport make_criterion_report(const TriangulationOptions& options, const
     if (options.optimize && result.optimize) {
         const OptimizeReport& optimum = *result.optimize;
         report.unit = unit_of(options.optimize->criterion, crs);
-        report.worst = optimum.after.all;
-        report.worst_interior = optimum.after.interior;
-        report.worst_delaunay = optimum.before.all;
-        report.worst_interior_delaunay = optimum.before.interior;
+        const double factor = told_factor(options.optimize->criterion, z_factor);
+        const auto told = [factor](std::optional<double> measure) {
+            return measure ? std::optional(factor * *measure) : measure;
+        };
+        report.worst = told(optimum.after.all);
+        report.worst_interior = told(optimum.after.interior);
+        report.worst_delaunay = told(optimum.before.all);
+        report.worst_interior_delaunay = told(optimum.before.interior);
         report.proven = choice_name(optimum.proof, kProofs);
         report.stopped_by = choice_name(optimum.stopped_by, kStops);
         report.length = optimum.length;

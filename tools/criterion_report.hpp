@@ -43,9 +43,13 @@ struct CriterionReport {
 /// The unit of lengths in an unknown one.
 inline constexpr const char* kUnknownLengthUnit = "CRS unit";
 
-/// The report on a TIN made with `options`.
+/// What measures are multiplied by to be told: slopes are measured in z units over CRS units, and told as
+/// ratios. `z_factor`: CRS units in a unit of z.
+double told_factor(Criterion criterion, double z_factor);
+
+/// The report on a TIN made with `options`. `z_factor`: as above.
 CriterionReport make_criterion_report(const TriangulationOptions& options, const TriangulateReport& result,
-                                      const io::Crs& crs);
+                                      const io::Crs& crs, double z_factor = 1);
 
 /// What a file says. Keys that are missing or unreadable are left empty.
 CriterionReport read_criterion_report(const io::TinMetadata& metadata);
@@ -59,13 +63,15 @@ JsonValue criterion_json(const CriterionReport& report);
 /// Lines for people, without indentation; none for a Delaunay TIN.
 std::vector<std::string> criterion_lines(const CriterionReport& report);
 
-/// What the user has to be warned of: a result that is not proven because the work was stopped, and slopes
-/// in mixed or unknown units.
+/// What the user has to be warned of: a result that is not proven because the work was stopped.
 std::vector<std::string> criterion_warnings(const TriangulationOptions& options,
-                                            const TriangulateReport& result, const io::Crs& crs,
-                                            const std::string& z_unit);
+                                            const TriangulateReport& result);
 
-/// A warning that slopes are no rise over run, where the units are known to differ; else empty.
+/// Whether slopes decide on the TIN, or are told of it.
+bool is_about_slopes(const TriangulationOptions& options);
+
+/// A warning where a unit that slopes need is not known, and the other is; else empty. To be said once a run,
+/// by commands that tell slopes.
 std::string slope_warning(const io::Crs& crs, const std::string& z_unit);
 
 }  // namespace tinwright::tools

@@ -127,20 +127,6 @@ std::string polygons_line(const LengthReport& length, bool was_stopped) {
            std::to_string(length.changed) + " triangulated anew";
 }
 
-/// Why slopes are not rise over run in one unit; empty if they are.
-std::string slope_unit_doubt(const io::Crs& crs, const std::string& z_unit) {
-    if (crs.is_geographic()) {
-        return "the CRS is in degrees";
-    }
-    if (crs.unit().empty()) {
-        return "the units are unknown";
-    }
-    if (z_unit.empty()) {
-        return "the unit of z is unknown, that of the CRS is " + crs.unit();
-    }
-    return z_unit == crs.unit() ? std::string() : "z is in " + z_unit + ", the CRS in " + crs.unit();
-}
-
 }  // namespace
 
 std::vector<std::string> criterion_lines(const CriterionReport& report) {
@@ -167,19 +153,8 @@ std::vector<std::string> criterion_lines(const CriterionReport& report) {
 }
 
 std::vector<std::string> criterion_warnings(const TriangulationOptions& options,
-                                            const TriangulateReport& result, const io::Crs& crs,
-                                            const std::string& z_unit) {
+                                            const TriangulateReport& result) {
     std::vector<std::string> warnings;
-    const bool is_slope =
-        options.data_dependent || (options.optimize && options.optimize->criterion == Criterion::Slope);
-    const std::string doubt = is_slope ? slope_unit_doubt(crs, z_unit) : std::string();
-    if (!doubt.empty()) {
-        const bool is_angle =
-            options.data_dependent && options.data_dependent->measure == CreaseMeasure::NormalAngle;
-        warnings.push_back((is_angle ? "angles between normals take z for CRS units: "
-                                     : "slopes are z units per CRS unit: ") +
-                           doubt);
-    }
     const std::string what =
         options.data_dependent ? "the TIN is valid but flips could lower its sum of creases further"
         : options.criterion_name() == kLength
@@ -199,10 +174,18 @@ std::vector<std::string> criterion_warnings(const TriangulationOptions& options,
     return warnings;
 }
 
+bool is_about_slopes(const TriangulationOptions& options) {
+    return options.data_dependent || (options.optimize && options.optimize->criterion == Criterion::Slope);
+}
+
 std::string slope_warning(const io::Crs& crs, const std::string& z_unit) {
-    const bool is_known = crs.is_geographic() || (!crs.unit().empty() && !z_unit.empty());
-    const std::string doubt = is_known ? slope_unit_doubt(crs, z_unit) : std::string();
-    return doubt.empty() ? doubt : "slopes are z units per CRS unit: " + doubt;
+    const std::string unit = crs.is_geographic() ? std::string() : crs.unit();
+    if (unit.empty() == z_unit.empty()) {
+        return {};  // both known, or nothing that could differ
+    }
+    return z_unit.empty() ? "the unit of z is unknown; taken to be that of the CRS, " + unit +
+                                ", in slopes; --z-unit tells it"
+                          : "the CRS's unit is unknown; slopes take z, in " + z_unit + ", to be in it";
 }
 
 }  // namespace tinwright::tools

@@ -105,7 +105,8 @@ class Explainer {
         result.made_by = maker(is_delaunay, constrained);
         if (const auto criterion = find_criterion(surface_.criterion.name)) {
             const Norm norm = surface_.criterion.edge_norm();
-            result.measure = measure_face(tin_, place.face, *criterion, norm);
+            result.measure =
+                told_factor(*criterion, surface_.z_factor) * measure_face(tin_, place.face, *criterion, norm);
             if (*criterion == Criterion::Length) {
                 result.length = explain_length(result.edges, norm, *result.measure);
             }
@@ -248,6 +249,8 @@ class Explainer {
                 keep_facets(tin_, make_interpolator(tin_, sharp_, options), surface_.is_water_face);
             const auto reader = surface->make_reader();
             ExplainedMethod explained{std::string(name), reader->read(place), {}};
+            explained.reading.gradient = {surface_.z_factor * explained.reading.gradient.x,
+                                          surface_.z_factor * explained.reading.gradient.y};
             reader->find_weights(place, explained.weights);
             std::sort(explained.weights.begin(), explained.weights.end(),
                       [](const VertexWeight& a, const VertexWeight& b) {

@@ -282,6 +282,27 @@ std::string crs_line(const Surface& surface) {
            (surface.z_unit.empty() ? "" : ", z in " + surface.z_unit);
 }
 
+/// What slopes take a unit of z for.
+JsonValue z_unit_json(const Surface& surface) {
+    const bool is_assumed = surface.z_unit.empty();
+    return JsonValue::object()
+        .set("name", is_assumed ? surface.crs.unit() : surface.z_unit)
+        .set("assumed", is_assumed)
+        .set("factor", surface.z_factor);
+}
+
+/// "US survey foot, 0.304801 of the CRS's unit", "metre, assumed".
+std::string z_unit_line(const Surface& surface) {
+    if (surface.z_unit.empty()) {
+        const std::string unit = surface.crs.unit();
+        return unit.empty() ? "unknown" : unit + ", assumed";
+    }
+    std::array<char, 48> factor{};
+    std::snprintf(factor.data(), factor.size(), "%.6g", surface.z_factor);
+    return surface.z_unit +
+           (surface.z_factor == 1 ? std::string() : ", " + std::string(factor.data()) + " of the CRS's unit");
+}
+
 std::string times_line(const JobReport& report, const Surface& surface) {
     std::string times = "read " + fixed(surface.read_seconds, 2);
     times += surface.water ? ", water " + fixed(surface.water->report.seconds, 2) : "";
@@ -371,6 +392,7 @@ JsonValue make_json(const JobReport& report, const Surface& surface) {
     if (report.graph) {
         json.set("graph", graph_json(*report.graph));
     } else {
+        json.set("z_unit", z_unit_json(surface));
         set_face_keys(json, surface);
         json.set("domain", report.domain);
     }
@@ -450,6 +472,9 @@ std::string report_text(const JobReport& report, const Surface& surface, const R
         add("wrote", report.outputs[i] + (i == 0 ? " (" + report.output_driver + type + ")" : ""));
     }
     if (detail.times) {
+        if (!report.graph) {
+            add("z unit", z_unit_line(surface));
+        }
         add("seconds", times_line(report, surface));
         add("memory", fixed(static_cast<double>(peak_memory_bytes()) / 1048576.0, 0) + " MiB at the peak");
     }

@@ -47,7 +47,8 @@ std::string measure_text(Criterion criterion, double value) {
 bool promises_worst_only(const std::string& scope) { return scope == "max" || scope.starts_with("top:"); }
 
 /// How many faces, up to a hundred, are beyond the value of scope `above`; a hundred for another scope.
-std::size_t count_beyond(const Tin& tin, Criterion criterion, const std::string& scope) {
+/// `factor`: see `told_factor`.
+std::size_t count_beyond(const Tin& tin, Criterion criterion, const std::string& scope, double factor) {
     constexpr std::string_view kAbove = "above:";
     const std::optional<double> stop =
         scope.starts_with(kAbove) ? find_number(scope.substr(kAbove.size())) : std::nullopt;
@@ -58,11 +59,23 @@ std::size_t count_beyond(const Tin& tin, Criterion criterion, const std::string&
     std::size_t count = 0;
     for (std::uint32_t f = 0; f < tin.mesh.slot_count() && count < kUsualFaces; ++f) {
         if (tin.mesh.is_terrain({f})) {
-            const double measure = measure_face(tin, {f}, criterion);
+            const double measure = factor * measure_face(tin, {f}, criterion);
             count += (is_greater_better ? measure < *stop : measure > *stop) ? 1U : 0U;
         }
     }
     return count;
+}
+
+/// `factor`: see `told_factor`.
+void tell_measures(Certificate& certificate, double factor) {
+    certificate.worst.all *= factor;
+    if (certificate.worst.interior) {
+        *certificate.worst.interior *= factor;
+    }
+    for (Improvement& improvement : certificate.improvements) {
+        improvement.measure *= factor;
+        improvement.improved *= factor;
+    }
 }
 
 /// "the 100 worst of 5998 faces", "the worst of 5998 faces", "5998 faces".
@@ -158,7 +171,7 @@ void OptimalityOptions::refuse_others_options() const {
 }
 
 OptimalityReport check_optimality(const io::TinFile& file, const OptimalityOptions& options,
-                                  const Progress& progress) {
+                                  const Progress& progress, double z_factor) {
     const Tin tin = io::make_tin(file);
     OptimalityReport report;
     report.criterion = *options.criterion;
@@ -178,16 +191,19 @@ OptimalityReport check_optimality(const io::TinFile& file, const OptimalityOptio
         report.is_unfinished = made.stopped_by == "budget" || made.stopped_by == "interrupt";
     }
     report.reach = options.reach;
+    const double factor = told_factor(report.criterion, z_factor);
     CertificateOptions certificate;
     certificate.criterion = report.criterion;
-    certificate.faces = options.all     ? std::nullopt
-                        : options.worst ? options.worst
-                                        : std::optional(count_beyond(tin, report.criterion, report.scope));
+    certificate.faces = options.all ? std::nullopt
+                        : options.worst
+                            ? options.worst
+                            : std::optional(count_beyond(tin, report.criterion, report.scope, factor));
     const bool is_free = !options.all && !options.worst;
     certificate.until_improvable = is_free && promises_worst_only(report.scope);
     certificate.reach = options.reach;
     certificate.progress = progress;
     report.certificate = certify(tin, certificate);
+    tell_measures(report.certificate, factor);
     if (certificate.until_improvable && report.improvable() > 0 && report.certificate.faces > 1) {
         report.is_next_improvable = true;
         report.certificate.improvements.clear();

@@ -72,10 +72,10 @@ struct OptimalityReport {
 
 /// Examines as many of the worst faces as `options` say. If they do not, a hundred: of scope `above` only
 /// those beyond its value, and of `max` and `top`, which promise no more than the worst face, down to the
-/// first that can be improved. Of length, the longest edge alone. `file`: without violations. Throws
-/// InputError, Cancelled.
+/// first that can be improved. Of length, the longest edge alone. `file`: without violations; `z_factor`: CRS
+/// units in its unit of z. Throws InputError, Cancelled.
 OptimalityReport check_optimality(const io::TinFile& file, const OptimalityOptions& options,
-                                  const Progress& progress);
+                                  const Progress& progress, double z_factor = 1);
 
 /// "slope: the 100 worst of 5998 faces cannot be improved (1234 edges tried); worst 1.2, interior 0.9".
 std::string optimality_verdict(const OptimalityReport& report);

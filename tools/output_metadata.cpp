@@ -26,6 +26,8 @@ io::TinMetadata output_metadata(const std::string& command, const Surface& surfa
                                 const TriangulationOptions& triangulation, const LineOptions& lines,
                                 const std::string& reading) {
     io::TinMetadata metadata{{"TINWRIGHT_VERSION", TINWRIGHT_VERSION}, {"TINWRIGHT_COMMAND", command}};
+    const io::TinMetadata units = unit_metadata(surface);
+    metadata.insert(metadata.end(), units.begin(), units.end());
     const io::TinMetadata criterion = criterion_metadata(surface.criterion);
     metadata.insert(metadata.end(), criterion.begin(), criterion.end());
     const io::TinMetadata of_lines = lines_metadata(surface.lines);

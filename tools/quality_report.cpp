@@ -189,7 +189,8 @@ void add_quality_json(JsonValue& json, const Surface& surface, const QualityRepo
             .set("percentile_99", summary.percentile_99)
             .set("maximum", summary.maximum);
         if (summary.measure == FaceMeasure::Slope) {
-            measure.set("maximum_ratio", slope_ratio(surface.tin, summary.worst.front().face));
+            measure.set("maximum_ratio",
+                        slope_ratio(surface.tin, summary.worst.front().face, surface.z_factor));
         }
         measure.set("histogram", JsonValue::object()
                                      .set("bounds", JsonValue::array_of(summary.histogram.bounds))

@@ -21,6 +21,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+constexpr const char* kZUnitKey = "TINWRIGHT_Z_UNIT";
+
 double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
@@ -100,6 +102,22 @@ std::vector<io::SampleSlice> slices_without_ids(Inputs& inputs) {
         slice.ids = {};
     }
     return slices;
+}
+
+/// Of a TIN file, which keeps a unit that its CRS does not tell.
+std::string z_unit_of(const io::TinMetadata& metadata, const io::Crs& crs, const CrsOptions& options) {
+    const std::string kept = metadata_value(metadata, kZUnitKey);
+    return !crs.z_unit().empty() ? crs.z_unit() : !kept.empty() ? kept : options.heights.source_unit;
+}
+
+/// Slopes that are asked for, in the units that TINs have: only what decides on creases and where to stop.
+void scale_slopes(TriangulateOptions& options, double z_factor) {
+    if (options.optimize && options.optimize->scope.kind == Scope::Kind::Above) {
+        options.optimize->scope.value /= told_factor(options.optimize->criterion, z_factor);
+    }
+    if (options.data_dependent) {
+        options.data_dependent->z_factor = z_factor;
+    }
 }
 
 /// What follows from the plane and the units.
@@ -212,6 +230,21 @@ std::string metadata_value(const io::TinMetadata& metadata, const std::string& k
     return {};
 }
 
+io::TinMetadata unit_metadata(const Surface& surface) {
+    const bool is_told = surface.z_unit.empty() || surface.output_crs.z_unit() == surface.z_unit;
+    return is_told ? io::TinMetadata() : io::TinMetadata{{kZUnitKey, surface.z_unit}};
+}
+
+double z_factor_of(const io::TinFile& file, const CrsOptions& options) {
+    return io::unit_factor(z_unit_of(file.metadata, file.crs, options), file.crs.unit());
+}
+
+void warn_of_slopes(const Surface& surface, Console& console) {
+    if (const std::string warning = slope_warning(surface.crs, surface.z_unit); !warning.empty()) {
+        console.warn_once(warning);
+    }
+}
+
 bool is_existing_tin(const SurfaceRequest& request) {
     const std::vector<io::Source>& sources = request.sources.sources;
     const auto tin = std::find_if(sources.begin(), sources.end(),
@@ -256,7 +289,10 @@ Surface triangulate_sources(const SurfaceRequest& request, Console& console) {
     }
     Surface surface;
     const io::WorkingPlane& plane = inputs.samples.crs.is_known() ? inputs.samples.plane : inputs.lines.plane;
-    options.ground = io::make_ground_measures(plane);
+    surface.z_unit = inputs.samples.z_unit.empty() ? inputs.lines.z_unit : inputs.samples.z_unit;
+    set_references(request.crs, plane, surface);
+    options.ground = surface.ground;
+    scale_slopes(options, surface.z_factor);
     if (has_water) {
         surface.water = level_inputs(request, inputs, console.progress().stage(read_end, triangulate_at));
     }
@@ -271,8 +307,6 @@ Surface triangulate_sources(const SurfaceRequest& request, Console& console) {
     std::vector<LineConflict>& conflicts = made.report.lines.conflicts;
     conflicts.insert(conflicts.begin(), inputs.lines.conflicts.begin(), inputs.lines.conflicts.end());
 
-    surface.z_unit = inputs.samples.z_unit.empty() ? inputs.lines.z_unit : inputs.samples.z_unit;
-    set_references(request.crs, plane, surface);
     if (request.keep_origins) {
         surface.origins = make_tin_origins(made.tin, inputs.samples.slices, inputs.lines, request.keep_ids);
         surface.source_names = name_sources(made.tin, surface.origins, inputs);
@@ -297,15 +331,18 @@ Surface triangulate_sources(const SurfaceRequest& request, Console& console) {
     }
     surface.tin = std::move(made.tin);
     surface.report = std::move(made.report);
-    surface.criterion = make_criterion_report(request.triangulation, *surface.report, surface.crs);
+    surface.criterion =
+        make_criterion_report(request.triangulation, *surface.report, surface.crs, surface.z_factor);
     std::vector<std::string> warnings = lines_warnings(surface.lines);
     if (surface.water) {
         const std::vector<std::string> of_water = water_warnings(*surface.water);
         warnings.insert(warnings.end(), of_water.begin(), of_water.end());
     }
-    for (std::string& warning :
-         criterion_warnings(request.triangulation, *surface.report, surface.crs, surface.z_unit)) {
+    for (std::string& warning : criterion_warnings(request.triangulation, *surface.report)) {
         warnings.push_back(std::move(warning));
+    }
+    if (is_about_slopes(request.triangulation)) {
+        warn_of_slopes(surface, console);
     }
     for (const std::string& warning : warnings) {
         console.warn(warning);
@@ -350,7 +387,7 @@ Surface read_existing_tin(const SurfaceRequest& request, Console& console) {
     if (request.keep_origins) {
         surface.origins = origins_of_file(surface.tin, file);
     }
-    surface.z_unit = plane.crs.z_unit().empty() ? request.crs.heights.source_unit : plane.crs.z_unit();
+    surface.z_unit = z_unit_of(file.metadata, plane.crs, request.crs);
     set_references(request.crs, plane, surface);
     surface.metadata = std::move(file.metadata);
     surface.criterion = read_criterion_report(surface.metadata);

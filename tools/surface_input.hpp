@@ -11,6 +11,7 @@
 #include "tinwright/io/atomic_output.hpp"
 #include "tinwright/io/output_positions.hpp"
 #include "tinwright/io/read_samples.hpp"
+#include "tinwright/io/read_tin.hpp"
 #include "tinwright/io/write_tin.hpp"
 #include "tinwright/mesh/tin.hpp"
 #include "tinwright/optimal/triangulate.hpp"
@@ -94,6 +95,15 @@ struct SurfaceRequest {
 
 /// The value of a key, or empty.
 std::string metadata_value(const io::TinMetadata& metadata, const std::string& key);
+
+/// TINWRIGHT_Z_UNIT, where the unit of elevations is known and the CRS that is written does not tell it.
+io::TinMetadata unit_metadata(const Surface& surface);
+
+/// CRS units in a unit of z of a TIN file that lies in a plane; 1 where either is unknown.
+double z_factor_of(const io::TinFile& file, const CrsOptions& options);
+
+/// For commands that tell slopes: warns, once a run, where their units are in doubt.
+void warn_of_slopes(const Surface& surface, Console& console);
 
 /// Whether the sources are one existing TIN. Throws UsageError when a TIN stands among several sources, or
 /// when an option is given that a TIN's own faces leave no room for.

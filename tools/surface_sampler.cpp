@@ -138,7 +138,8 @@ void SurfaceSampler::append_reading(std::vector<TableValue>& row, Point2 positio
     row.emplace_back(written.y);
     if (place) {
         row.emplace_back(reading.z);
-        row.emplace_back(slope_of(reading.gradient, slope_unit_));
+        const Point2 gradient{surface_.z_factor * reading.gradient.x, surface_.z_factor * reading.gradient.y};
+        row.emplace_back(slope_of(gradient, slope_unit_));
         row.emplace_back(aspect_of(reading.gradient));
         row.emplace_back(static_cast<std::int64_t>(face_numbers_[place->face.value]));
     } else {

@@ -43,6 +43,19 @@ TEST_SUITE("criteria/quality") {
         CHECK(slope_ratio(tin, {0}) == doctest::Approx(1));
     }
 
+    TEST_CASE("slopes count the unit of z, and nothing else does") {
+        const Tin tin = tilted_square();
+        const double factor = std::sqrt(3.0);
+        CHECK(measure_face(tin, {0}, FaceMeasure::Slope, factor) == doctest::Approx(60));
+        CHECK(slope_ratio(tin, {0}, factor) == doctest::Approx(factor));
+        CHECK(measure_face(tin, {0}, FaceMeasure::LongestEdge, factor) ==
+              measure_face(tin, {0}, FaceMeasure::LongestEdge));
+        const QualityReport report = assess_quality(tin, 5, {}, factor);
+        CHECK(summary_of(report, FaceMeasure::Slope).maximum == doctest::Approx(60));
+        CHECK(summary_of(report, FaceMeasure::Slope).worst.front().value == doctest::Approx(60));
+        CHECK(report.area == doctest::Approx(100));
+    }
+
     TEST_CASE("the angle of a needle is as good as that of any face") {
         // The apex stands 1 above the middle of an edge of 2 000 000: the angle lacks 2 atan(1e-6).
         const Tin tin = make_small_tin({{0, 0}, {2000000, 0}, {1000000, 1}}, {0, 0, 0}, {{0}, {1}, {2}});

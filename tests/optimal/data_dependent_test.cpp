@@ -201,6 +201,40 @@ TEST_SUITE("optimal/data_dependent") {
         }
     }
 
+    TEST_CASE("elevations in another unit give the same creases and the same triangulation") {
+        constexpr double kFactor = 0.25;  // a power of two, so that nothing is rounded
+        for (int seed = 0; seed < cases(10); ++seed) {
+            CAPTURE(seed);
+            Random random(static_cast<std::uint64_t>(seed));
+            for (const TinFamily& family : general_families()) {
+                CAPTURE(family.name);
+                Tin tin = family.make(random, 40);
+                Tin other = tin;
+                for (double& z : other.z) {
+                    z /= kFactor;
+                }
+                for (const auto& named : kCreaseMeasures) {
+                    const CreaseMeasure measure = named.second;
+                    for_each_edge(tin.mesh, [&](HalfEdgeId h) {
+                        REQUIRE(measure_crease(tin, h, measure) ==
+                                measure_crease(other, h, measure, kFactor));
+                    });
+                    Tin flipped = tin;
+                    Tin other_flipped = other;
+                    DataDependentOptions options;
+                    options.measure = measure;
+                    const DataDependentReport report = flip_creases(flipped, options);
+                    options.z_factor = kFactor;
+                    const DataDependentReport other_report = flip_creases(other_flipped, options);
+                    CHECK(report.sum_before == other_report.sum_before);
+                    CHECK(report.sum_after == other_report.sum_after);
+                    CHECK(report.flips == other_report.flips);
+                    CHECK(terrain_of(flipped.mesh) == terrain_of(other_flipped.mesh));
+                }
+            }
+        }
+    }
+
     TEST_CASE("flips are those of a greedy descent that computes the whole sum after every one") {
         for (int seed = 0; seed < cases(6); ++seed) {
             CAPTURE(seed);

@@ -116,7 +116,7 @@ TEST_SUITE("tools/criterion_report") {
         stopped.length = LengthReport();
         CHECK(criterion_lines(make_criterion_report(length_options(""), with(stopped), in_metres())).size() ==
               3);
-        CHECK(criterion_warnings(length_options(""), with(stopped), nowhere(), "") ==
+        CHECK(criterion_warnings(length_options(""), with(stopped)) ==
               std::vector<std::string>{"the budget of 0 s ran out: the TIN is valid but its longest edge is "
                                        "not proven the shortest possible; give a longer --budget"});
     }
@@ -201,28 +201,46 @@ TEST_SUITE("tools/criterion_report") {
     TEST_CASE("a job that was stopped is warned about, with what to do") {
         OptimizeReport result = sample_result();
         result.stopped_by = StoppedBy::Budget;
-        CHECK(criterion_warnings(options_for("angle", "", "5"), with(result), in_metres(), "") ==
+        CHECK(criterion_warnings(options_for("angle", "", "5"), with(result)) ==
               std::vector<std::string>{"the budget of 5 s ran out: the TIN is valid but its worst angle is "
                                        "not proven optimal; give a longer --budget"});
         result.stopped_by = StoppedBy::Interrupt;
-        CHECK(criterion_warnings(options_for("height"), with(result), in_metres(), "") ==
+        CHECK(criterion_warnings(options_for("height"), with(result)) ==
               std::vector<std::string>{"interrupted while optimising: the TIN is valid but its worst height "
                                        "is not proven optimal"});
-        CHECK(criterion_warnings(options_for(""), TriangulateReport(), in_metres(), "").empty());
+        CHECK(criterion_warnings(options_for(""), TriangulateReport()).empty());
     }
 
-    TEST_CASE("slopes in mixed or unknown units are warned about once") {
-        const auto warnings = [](const io::Crs& crs, const std::string& z_unit) {
-            return criterion_warnings(options_for("slope"), with(sample_result()), crs, z_unit);
-        };
-        const std::string slopes = "slopes are z units per CRS unit: ";
-        CHECK(warnings(in_metres(), "metre").empty());
-        CHECK(warnings(in_metres(), "") ==
-              std::vector{slopes + "the unit of z is unknown, that of the CRS is metre"});
-        CHECK(warnings(in_metres(), "foot") == std::vector{slopes + "z is in foot, the CRS in metre"});
-        CHECK(warnings(nowhere(), "") == std::vector{slopes + "the units are unknown"});
-        CHECK(warnings(io::Crs::parse("EPSG:4326"), "metre") ==
-              std::vector{slopes + "the CRS is in degrees"});
-        CHECK(criterion_warnings(options_for("height"), with(sample_result()), nowhere(), "").empty());
+    TEST_CASE("slopes are told as ratios, whatever the unit of z, and other measures as they are") {
+        const CriterionReport slope =
+            make_criterion_report(options_for("slope"), with(sample_result()), in_metres(), 0.25);
+        CHECK(slope.worst == 4.5 / 4);
+        CHECK(slope.worst_interior == 3.25 / 4);
+        CHECK(slope.worst_delaunay == 12.25 / 4);
+        CHECK(slope.worst_interior_delaunay == 8.5 / 4);
+        CHECK(make_criterion_report(options_for("height"), with(sample_result()), in_metres(), 0.25).worst ==
+              4.5);
+        OptimizeReport without = sample_result();
+        without.after.interior.reset();
+        CHECK_FALSE(make_criterion_report(options_for("slope"), with(without), in_metres(), 0.25)
+                        .worst_interior.has_value());
+    }
+
+    TEST_CASE("slopes are doubted where one unit of two is known") {
+        CHECK(slope_warning(in_metres(), "metre").empty());
+        CHECK(slope_warning(in_metres(), "foot").empty());  // both known: they are reconciled
+        CHECK(slope_warning(nowhere(), "").empty());
+        CHECK(slope_warning(in_metres(), "") ==
+              "the unit of z is unknown; taken to be that of the CRS, metre, in slopes; --z-unit tells it");
+        CHECK(slope_warning(nowhere(), "foot") ==
+              "the CRS's unit is unknown; slopes take z, in foot, to be in it");
+    }
+
+    TEST_CASE("the criteria of slopes, and of creases, are about slopes") {
+        CHECK(is_about_slopes(options_for("slope")));
+        CHECK(is_about_slopes(options_for("normal-angle")));
+        CHECK(is_about_slopes(options_for("normal-jump")));
+        CHECK_FALSE(is_about_slopes(options_for("height")));
+        CHECK_FALSE(is_about_slopes(options_for("")));
     }
 }

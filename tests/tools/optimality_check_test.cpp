@@ -150,6 +150,32 @@ TEST_SUITE("tools/optimality_check") {
         CHECK(examined("60") == 100);
     }
 
+    TEST_CASE("slopes are told, and a scope is taken, as ratios whatever the unit of z") {
+        constexpr double kFactor = 0.25;
+        const OptimalityOptions all = options_of({"--criterion", "slope", "--all"});
+        const OptimalityReport plain = check_optimality(random_file({}), all, {});
+        const OptimalityReport scaled = check_optimality(random_file({}), all, {}, kFactor);
+        REQUIRE(plain.improvable() > 0);
+        REQUIRE(scaled.improvable() == plain.improvable());
+        CHECK(scaled.certificate.worst.all == kFactor * plain.certificate.worst.all);
+        CHECK(scaled.certificate.worst.interior == kFactor * *plain.certificate.worst.interior);
+        CHECK(scaled.listed.front().measure == kFactor * plain.listed.front().measure);
+        CHECK(scaled.listed.front().improved == kFactor * plain.listed.front().improved);
+        const double worst = plain.certificate.worst.all;
+        const auto examined = [&](double value) {
+            return check_optimality(random_file({{"TINWRIGHT_CRITERION", "slope"},
+                                                 {"TINWRIGHT_SCOPE", "above:" + std::to_string(value)}}),
+                                    options_of({"--criterion", "slope"}), {}, kFactor)
+                .certificate.faces;
+        };
+        CHECK(examined(worst * kFactor * 1.001) == 0);
+        CHECK(examined(worst * kFactor * 0.999) >= 1);
+        CHECK(examined(0) == 100);
+        const OptimalityOptions height = options_of({"--criterion", "height", "--all"});
+        CHECK(check_optimality(random_file({}), height, {}, kFactor).certificate.worst.all ==
+              check_optimality(random_file({}), height, {}).certificate.worst.all);
+    }
+
     TEST_CASE("a TIN that was not finished is said to be so") {
         const OptimalityReport report = check_optimality(random_file({{"TINWRIGHT_CRITERION", "slope"},
                                                                       {"TINWRIGHT_SCOPE", "vector"},

@@ -128,9 +128,10 @@ std::vector<FaceValue> find_worst(const Tin& tin, const std::vector<FaceId>& fac
 }
 
 /// The measure of a face, lengths and areas on the ground.
-double measure_on_ground(const Tin& tin, FaceId face, FaceMeasure measure, const GroundMeasures& ground) {
+double measure_on_ground(const Tin& tin, FaceId face, FaceMeasure measure, const GroundMeasures& ground,
+                         double z_factor) {
     if (measure != FaceMeasure::LongestEdge && measure != FaceMeasure::Area) {
-        return measure_face(tin, face, measure);
+        return measure_face(tin, face, measure, z_factor);
     }
     std::array<Point2, 3> corners{};
     for (unsigned i = 0; i < 3; ++i) {
@@ -154,16 +155,16 @@ double measure_on_ground(const Tin& tin, FaceId face, FaceMeasure measure, const
 }
 
 void fill(std::vector<double>& values, const Tin& tin, const std::vector<FaceId>& faces, FaceMeasure measure,
-          const GroundMeasures& ground) {
+          const GroundMeasures& ground, double z_factor) {
     if (!ground.is_geodesic()) {
         std::transform(faces.begin(), faces.end(), values.begin(),
-                       [&](FaceId face) { return measure_face(tin, face, measure); });
+                       [&](FaceId face) { return measure_face(tin, face, measure, z_factor); });
         return;
     }
     constexpr std::size_t kBlock = 1024;
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, faces.size(), kBlock), [&](const auto& range) {
         for (std::size_t i = range.begin(); i < range.end(); ++i) {
-            values[i] = measure_on_ground(tin, faces[i], measure, ground);
+            values[i] = measure_on_ground(tin, faces[i], measure, ground, z_factor);
         }
     });
 }
@@ -176,13 +177,13 @@ double value_of_rank(std::vector<double>& values, std::size_t rank) {
 
 }  // namespace
 
-double measure_face(const Tin& tin, FaceId face, FaceMeasure measure) {
+double measure_face(const Tin& tin, FaceId face, FaceMeasure measure, double z_factor) {
     const std::array<Vector3, 3> edges = edges_of(tin, face);
     switch (measure) {
         case FaceMeasure::LargestAngle:
             return largest_angle_deg(edges);
         case FaceMeasure::Slope:
-            return std::atan(gradient_length(edges)) * kDegrees;
+            return std::atan(z_factor * gradient_length(edges)) * kDegrees;
         case FaceMeasure::LongestEdge:
             return std::max({length(edges[0]), length(edges[1]), length(edges[2])});
         case FaceMeasure::Area:
@@ -191,9 +192,12 @@ double measure_face(const Tin& tin, FaceId face, FaceMeasure measure) {
     return 0;
 }
 
-double slope_ratio(const Tin& tin, FaceId face) { return gradient_length(edges_of(tin, face)); }
+double slope_ratio(const Tin& tin, FaceId face, double z_factor) {
+    return z_factor * gradient_length(edges_of(tin, face));
+}
 
-QualityReport assess_quality(const Tin& tin, std::size_t worst, const GroundMeasures& ground) {
+QualityReport assess_quality(const Tin& tin, std::size_t worst, const GroundMeasures& ground,
+                             double z_factor) {
     std::vector<FaceId> faces;
     for (std::uint32_t f = 0; f < tin.mesh.slot_count(); ++f) {
         if (tin.mesh.is_terrain(FaceId{f})) {
@@ -207,7 +211,7 @@ QualityReport assess_quality(const Tin& tin, std::size_t worst, const GroundMeas
     }
     std::vector<double> values(faces.size());
     for (const FaceMeasure measure : kFaceMeasures) {
-        fill(values, tin, faces, measure, ground);
+        fill(values, tin, faces, measure, ground, z_factor);
         if (measure == FaceMeasure::Area) {
             report.area = std::accumulate(values.begin(), values.end(), 0.0);
         }

@@ -15,19 +15,19 @@ namespace tinwright {
 /// A number for one face.
 enum class FaceMeasure {
     LargestAngle,  ///< degrees, 60 to 180, seen from above
-    Slope,         ///< degrees, 0 to 90; meaningful when z has the unit of x and y
+    Slope,         ///< degrees, 0 to 90
     LongestEdge,   ///< CRS units, seen from above
     Area,          ///< square CRS units, seen from above
 };
 inline constexpr std::array kFaceMeasures{FaceMeasure::LargestAngle, FaceMeasure::Slope,
                                           FaceMeasure::LongestEdge, FaceMeasure::Area};
 
-/// The measure of a face that is not a ghost. Relative error a few units in the last place of the
-/// coordinate differences, which themselves are exact.
-double measure_face(const Tin& tin, FaceId face, FaceMeasure measure);
+/// The measure of a face that is not a ghost. `z_factor`: CRS units in a unit of z, which slopes count.
+/// Relative error a few units in the last place of the coordinate differences, which themselves are exact.
+double measure_face(const Tin& tin, FaceId face, FaceMeasure measure, double z_factor = 1);
 
-/// Length of a face's gradient: z units of rise over CRS units of run, 0 for a level face.
-double slope_ratio(const Tin& tin, FaceId face);
+/// Length of a face's gradient: rise over run, 0 for a level face. `z_factor` as above.
+double slope_ratio(const Tin& tin, FaceId face, double z_factor = 1);
 
 /// Counts of values between bounds.
 struct Histogram {
@@ -60,9 +60,10 @@ struct QualityReport {
 };
 
 /// Summarises every measure. `worst`: how many of the worst faces to list. Lengths and areas are those of the
-/// ground. O(n), parallel inside the caller's task arena where these are functions; 8 bytes a face of
-/// scratch.
-QualityReport assess_quality(const Tin& tin, std::size_t worst = 5, const GroundMeasures& ground = {});
+/// ground. `z_factor`: CRS units in a unit of z. O(n), parallel inside the caller's task arena where these
+/// are functions; 8 bytes a face of scratch.
+QualityReport assess_quality(const Tin& tin, std::size_t worst = 5, const GroundMeasures& ground = {},
+                             double z_factor = 1);
 
 }  // namespace tinwright
 

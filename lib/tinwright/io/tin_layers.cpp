@@ -27,7 +27,7 @@ struct Incline {
     double area = 0;
 };
 
-Incline incline_of(const Tin& tin, const std::array<VertexId, 3>& v) {
+Incline incline_of(const Tin& tin, const std::array<VertexId, 3>& v, double z_factor) {
     constexpr double kDegrees = 180 / std::numbers::pi;
     const double quantum = tin.lattice.quantum();
     const Key2 a = tin.key(v[0]);
@@ -42,7 +42,7 @@ Incline incline_of(const Tin& tin, const std::array<VertexId, 3>& v) {
     const double fall_y = -(wz * ux - uz * wx) / twice_area;
     Incline incline;
     incline.area = twice_area / 2;
-    incline.slope_deg = std::atan(std::hypot(fall_x, fall_y)) * kDegrees;
+    incline.slope_deg = std::atan(z_factor * std::hypot(fall_x, fall_y)) * kDegrees;
     incline.is_level = fall_x == 0 && fall_y == 0;
     const double aspect = std::atan2(fall_x, fall_y) * kDegrees;
     incline.aspect_deg = aspect < 0 ? aspect + 360 : aspect;
@@ -170,7 +170,7 @@ std::size_t write_faces(TinDataset& dataset, const std::string& layer, const Tin
             const Point3& q = p[static_cast<unsigned>(i % 3)];
             ring.setPoint(i, q.x, q.y, q.z);
         }
-        const Incline incline = incline_of(tin, v);
+        const Incline incline = incline_of(tin, v, options.z_factor);
         faces.set(0, static_cast<int>(faces.written()));
         faces.set(4, constrained);
         faces.set(5, incline.slope_deg);

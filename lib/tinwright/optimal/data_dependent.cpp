@@ -18,8 +18,9 @@ namespace tinwright {
 
 namespace {
 
-/// Of z over x and y of the plane through three vertices; the same bits for any order of them.
-Point2 gradient_of(const Tin& tin, VertexId a, VertexId b, VertexId c) {
+/// Of z over x and y of the plane through three vertices; the same bits for any order of them. `z_factor`:
+/// CRS units in a unit of z.
+Point2 gradient_of(const Tin& tin, VertexId a, VertexId b, VertexId c, double z_factor) {
     std::array<VertexId, 3> v{a, b, c};
     std::sort(v.begin(), v.end());
     const Key2 p = tin.key(v[0]);
@@ -28,7 +29,8 @@ Point2 gradient_of(const Tin& tin, VertexId a, VertexId b, VertexId c) {
     const double q_z = tin.z[v[1].value] - tin.z[v[0].value];
     const double r_z = tin.z[v[2].value] - tin.z[v[0].value];
     const double area = doubled_area(p, q, r) * tin.lattice.quantum();
-    return {(q_z * (r.y - p.y) - r_z * (q.y - p.y)) / area, (r_z * (q.x - p.x) - q_z * (r.x - p.x)) / area};
+    return {z_factor * ((q_z * (r.y - p.y) - r_z * (q.y - p.y)) / area),
+            z_factor * ((r_z * (q.x - p.x) - q_z * (r.x - p.x)) / area)};
 }
 
 double length(double x, double y) { return std::sqrt(x * x + y * y); }
@@ -101,7 +103,7 @@ class Flipper {
     }
     void find_gradient(FaceId f) {
         const auto& v = tin_.mesh.face(f).vertex;
-        gradients_[f.value] = gradient_of(tin_, v[0], v[1], v[2]);
+        gradients_[f.value] = gradient_of(tin_, v[0], v[1], v[2], options_.z_factor);
     }
     [[nodiscard]] double find_gain(const Quad& quad) const;
     [[nodiscard]] bool is_in_order(const Quad& quad);
@@ -131,8 +133,8 @@ double Flipper::find_gain(const Quad& quad) const {
         orient2d(tin_.key(c), tin_.key(d), tin_.key(b)) <= 0) {
         return 0;
     }
-    const Point2 at_a = gradient_of(tin_, a, c, d);
-    const Point2 at_b = gradient_of(tin_, b, c, d);
+    const Point2 at_a = gradient_of(tin_, a, c, d, options_.z_factor);
+    const Point2 at_b = gradient_of(tin_, b, c, d, options_.z_factor);
     double before = crease_at(h);
     double after = crease(at_a, at_b, options_.measure);
     double steepest = std::max(length(at_a.x, at_a.y), length(at_b.x, at_b.y));
@@ -270,10 +272,10 @@ DataDependentReport Flipper::run() {
 
 }  // namespace
 
-double measure_crease(const Tin& tin, HalfEdgeId h, CreaseMeasure measure) {
-    const auto gradient = [&tin](HalfEdgeId side) {
+double measure_crease(const Tin& tin, HalfEdgeId h, CreaseMeasure measure, double z_factor) {
+    const auto gradient = [&tin, z_factor](HalfEdgeId side) {
         const auto& v = tin.mesh.face(face_of(side)).vertex;
-        return gradient_of(tin, v[0], v[1], v[2]);
+        return gradient_of(tin, v[0], v[1], v[2], z_factor);
     };
     const Quad quad = quad_around(tin.mesh, h);
     return crease(gradient(quad.h), gradient(quad.t), measure);

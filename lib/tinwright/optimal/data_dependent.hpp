@@ -19,7 +19,7 @@ namespace tinwright {
 /// How much of a crease an edge is between the planes of its two faces.
 enum class CreaseMeasure : std::uint8_t {
     NormalAngle,  ///< angle between the normals of the faces [dyn1990], radians
-    NormalJump    ///< jump of the slope across the edge [dyn1990; quak1990], z units over CRS units
+    NormalJump    ///< jump of the slope across the edge [dyn1990; quak1990], a ratio
 };
 /// Names as in `--criterion`.
 inline constexpr std::array kCreaseMeasures{
@@ -33,6 +33,7 @@ struct DataDependentOptions {
     /// through an end of the old edge as well. At least 0: then only co-circular vertices get other edges.
     /// Empty: whatever the faces' shape.
     std::optional<int> delaunay_order = 3;
+    double z_factor = 1;                        ///< CRS units in a unit of z, which creases count
     std::optional<double> budget_seconds = {};  ///< stop after this time
     Progress progress = {};                     ///< asked often; false stops the work like a budget
 };
@@ -47,8 +48,9 @@ struct DataDependentReport {
     double seconds = 0;
 };
 
-/// Of an edge between two terrain faces. The same bits for both half-edges and any order of corners.
-double measure_crease(const Tin& tin, HalfEdgeId h, CreaseMeasure measure);
+/// Of an edge between two terrain faces. `z_factor`: CRS units in a unit of z. The same bits for both
+/// half-edges and any order of corners.
+double measure_crease(const Tin& tin, HalfEdgeId h, CreaseMeasure measure, double z_factor = 1);
 
 /// Flips edges as long as the sum of creases gets less, the largest gain first, ties by the edge's vertices.
 /// Constrained edges stay and do not count: a crease there is meant. So do vertices and the domain.
