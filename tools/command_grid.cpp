@@ -275,9 +275,6 @@ Outcome CommandGrid::run() {
     options.metadata = output_metadata("grid", surface, triangulation, lines, reading_options(surface));
     options.gridding.find_places = placing.find_places;
     options.gridding.ground = surface.ground;
-    if (products.z_factor_text.empty()) {
-        options.gridding.z_factor = surface.z_factor;
-    }
     set_river_cells(surface, grid, placing, options.gridding);
     options.progress = console.progress().stage(0.6, 1);
     const io::WrittenGrid written = write(surface, grid, targets, options);
