@@ -111,8 +111,9 @@ void CommandCheck::setup(const std::vector<std::string>& arguments) {
 
     check_key_values("--oo", sources.open_options);
     lines.finish(sources.open_options);
+    crs.finish();
+    crs.plane.takes_best = !crs.plane.is_limit_given;  // faults are looked for wherever they are
     if (!sources.texts.empty() || lines.sources.empty()) {
-        crs.finish();
         sources.finish();
     }
     audit.finish();

@@ -29,6 +29,7 @@ void CommandInfo::setup(const std::vector<std::string>& arguments) {
     parse_options(*parser, arguments);
 
     crs.finish();
+    crs.plane.takes_best = !crs.plane.is_limit_given;  // to tell of a TIN is no reason to refuse it
     sources.finish();
     // Conflicts are to be counted and shown, not to end the command that was asked to show them.
     triangulation.finish(DomainRule::Kind::Convex, DuplicatePolicy::Mean);

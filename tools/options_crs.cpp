@@ -57,7 +57,7 @@ void CrsOptions::add_to(CLI::App& parser, bool shows_heights) {
     add_value(parser, "--working-crs", working_crs_text, "CRS",
               "plane to work in: auto (default)|utm|local|CRS");
     const std::string group = shows_heights ? "Options" : "";
-    add_value(parser, "--z-unit", z_unit_text, "UNIT", "of sources that do not tell theirs: metre|foot|...")
+    add_value(parser, "--z-unit", z_unit_text, "UNIT", "of sources that do not tell: metre|foot|...")
         ->group(group);
     add_value(parser, "--z-scale", z_scale_text, "FACTOR", "elevations read count times this")->group(group);
     add_value(parser, "--geoid", geoid_text, "FILE", "geoid to take off ellipsoidal heights (.pgm)")

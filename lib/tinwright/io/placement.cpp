@@ -230,6 +230,14 @@ void Placement::measure_plane() {
         }
         plane_ = choose_working_plane(in_plain_degrees(geographic), extent, options_.plane);
         plane_.source_crs = {};
+        if (plane_.scale.distortion() > options_.plane.max_distortion) {
+            std::ostringstream percent;
+            percent.imbue(std::locale::classic());
+            percent.precision(2);
+            percent << 100 * plane_.scale.distortion();
+            warnings_.push_back("no plane is true to scale over the data's extent, " + extent.text() +
+                                "; lengths and slopes are off by up to " + percent.str() + " %");
+        }
         return;
     }
     plane_.extent = extent;

@@ -194,6 +194,14 @@ WorkingPlane choose_working_plane(const Crs& source, const GeographicExtent& ext
             return make_plane(source, extent, best, WorkingPlane::Origin::Local);
         }
     }
+    const auto least = std::min_element(
+        candidates.begin(), candidates.end(),
+        [](const PlaneCandidate& a, const PlaneCandidate& b) { return a.distortion() < b.distortion(); });
+    if (request.takes_best && std::isfinite(least->distortion())) {
+        const bool is_utm = least == candidates.begin() && request.rule != PlaneRequest::Rule::Local;
+        return make_plane(source, extent, *least,
+                          is_utm ? WorkingPlane::Origin::Utm : WorkingPlane::Origin::Local);
+    }
     refuse(geographic, extent, candidates, request);
 }
 

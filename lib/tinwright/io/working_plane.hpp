@@ -23,6 +23,7 @@ struct PlaneRequest {
     Rule rule = Rule::Auto;
     Crs crs{};                      ///< of Given: projected
     double max_distortion = 0.001;  ///< greatest |scale - 1| over the data's extent
+    bool takes_best = false;        ///< where no chosen plane is within the limit: the best, with a warning
     bool is_limit_given = false;    ///< the limit counts for systems that users or files name as well
 };
 
