@@ -41,6 +41,9 @@ Outcome CommandInfo::run() {
     const SurfaceRequest request{.sources = sources, .crs = crs, .triangulation = triangulation};
     const bool is_tin = is_existing_tin(request);
     Surface surface = is_tin ? read_existing_tin(request, console) : triangulate_sources(request, console);
+    if (crs.crs_text.empty() && is_tin && surface.plane.is_source_geographic()) {
+        surface.output_crs = surface.plane.source_crs;  // the file as it is
+    }
     if (!surface.flat_faces) {
         surface.flat_faces = count_in_file(surface.tin, surface.is_water_face, surface.metadata);
     }

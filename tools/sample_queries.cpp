@@ -73,8 +73,15 @@ bool is_text_of_lines(const io::Source& source) {
     return false;
 }
 
-void warn_of_guess(const io::Crs& crs, const QueryOptions& options, Queries& queries) {
+/// A surface of which nobody knows where it is takes the system of what is asked about, unless that is
+/// degrees.
+void guess_surface_crs(const io::WorkingPlane& plane, const QueryOptions& options, Queries& queries) {
+    const io::Crs& crs = plane.crs;
     if (crs.is_known() && !options.crs.is_known()) {
+        if (plane.is_source_geographic()) {
+            throw InputError("the surface has no CRS, and what --at names is in longitude and latitude, " +
+                             plane.source_crs.name() + ": assign the surface's with --source-crs");
+        }
         queries.warnings.push_back("the surface has no CRS; taken to be in " + crs.name() +
                                    " as what --at names");
     }
@@ -107,7 +114,7 @@ void read_points(std::span<const Whereabouts> at, const QueryOptions& options, Q
         read.progress = options.progress;
         samples = io::read_samples(numbered.sources, read);
         queries.warnings = samples.warnings;
-        warn_of_guess(samples.crs, options, queries);
+        guess_surface_crs(samples.plane, options, queries);
     }
     auto slice = samples.slices.begin();
     for (std::size_t i = 0; i < at.size(); ++i) {
@@ -143,7 +150,7 @@ void read_profile_lines(std::span<const Whereabouts> at, const QueryOptions& opt
     read.progress = options.progress;
     const io::Lines lines = io::read_lines(sources, read);
     queries.warnings = lines.warnings;
-    warn_of_guess(lines.crs, options, queries);
+    guess_surface_crs(lines.plane, options, queries);
     for (std::size_t i = 0; i < lines.lines.size(); ++i) {
         std::vector<Point2>& line = queries.lines.emplace_back();
         for (const Point3& point : lines.lines[i].points) {

@@ -128,6 +128,11 @@ void set_references(const CrsOptions& options, io::WorkingPlane plane, Surface& 
     const bool is_elsewhere =
         asked.is_known() && surface.crs.is_known() && !asked.is_same_horizontally(surface.crs);
     surface.output_crs = is_elsewhere ? asked.with_heights_of(surface.crs) : surface.crs;
+    if (surface.crs.heights() == io::Crs::Heights::Ellipsoidal &&
+        asked.heights() == io::Crs::Heights::Unknown) {
+        // Projected systems with ellipsoidal heights have no codes, and few programs read them.
+        surface.output_crs = surface.output_crs.horizontal();
+    }
     surface.ground = io::make_ground_measures(surface.plane);
     surface.z_factor = io::unit_factor(surface.z_unit, surface.crs.unit());
     surface.reference_options = options.canonical();

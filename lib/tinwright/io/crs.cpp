@@ -137,7 +137,12 @@ std::string Crs::name() const {
     if (system_ == nullptr) {
         return "none";
     }
-    const std::string own = text_or_empty(system_->GetName());
+    std::string own = text_or_empty(system_->GetName());
+    if (lower(own) == "unknown") {  // as PROJ calls what PROJ strings define
+        const std::string method = text_or_empty(system_->GetAttrValue("PROJECTION"));
+        own = "unnamed" + (method.empty() ? method : ", " + method);
+        std::replace(own.begin(), own.end(), '_', ' ');
+    }
     const std::string authority = code();
     if (authority.empty()) {
         return own.empty() ? "unnamed" : own;

@@ -15,9 +15,11 @@ namespace tinwright::io {
 
 namespace {
 
-constexpr double kDegreeSteps = 1e12;  // written steps to a degree
-constexpr double kLengthSteps = 1e6;   // and to another unit
-constexpr int kNet = 16;               // parts that bounds are divided into each way
+// Written steps to a degree. Positions in the plane are rounded to micrometres, which are 1e-11 degrees:
+// decimals of up to nine places, a tenth of a millimetre, come back as they were.
+constexpr double kDegreeSteps = 1e10;
+constexpr double kLengthSteps = 1e6;  // and to another unit
+constexpr int kNet = 16;              // parts that bounds are divided into each way
 
 double rounded(double value, double steps) {
     const double scaled = value * steps;

@@ -30,6 +30,14 @@ std::string number(double value) {
     return text.str();
 }
 
+/// Refuses a vertical system alone.
+void require_positions(const std::string& option, const Crs& crs) {
+    if (crs.is_known() && crs.gdal()->IsVertical() != 0 && crs.gdal()->IsCompound() == 0) {
+        throw UsageError(option + " " + crs.name() +
+                         " is for elevations alone; put one for positions before it, as in EPSG:4326+5773");
+    }
+}
+
 /// One name a unit; what is none is kept as the file spells it.
 std::string unit_name(const std::string& spelling) {
     const std::optional<LengthUnit> unit = find_length_unit(spelling);
@@ -84,6 +92,11 @@ Placement::Placement(std::span<const Source> sources, PlacementOptions options)
     for (const Source& source : sources) {
         given_.push_back(source.crs ? Crs::parse(*source.crs) : Crs());
     }
+    require_positions("--crs", options_.crs);
+    for (std::size_t s = 0; s < sources.size(); ++s) {
+        require_positions(label(sources[s]) + ": crs=", given_[s]);
+    }
+    require_positions("--source-crs", options_.source_crs);
     if (options_.crs.is_geocentric()) {
         throw UsageError("--crs " + options_.crs.name() +
                          " is geocentric, without elevations; give a geographic or projected system");
@@ -101,6 +114,7 @@ void Placement::note(std::size_t s, const CoordinateSystem& own, std::span<Point
     noted.crs = system_of(s, own);
     noted.epoch = noted.crs.epoch() ? noted.crs.epoch() : options_.epoch;
     noted.is_noted = true;
+    noted.has_z = own.has_z;
     noted.z_unit = !own.z_unit.empty() ? unit_name(own.z_unit) : noted.crs.z_unit();
     if (noted.z_unit.empty()) {
         noted.z_unit = options_.heights.source_unit;
@@ -315,11 +329,28 @@ void Placement::place_guessed_sources() {
         }
     }
     const Crs& taken = options_.crs.is_geographic() ? options_.crs : plane_.crs;
-    if (files.empty() || !taken.is_known()) {
+    if (!files.empty() && taken.is_known()) {
+        warnings_.push_back((files.size() == 1 ? "file " : "files ") + quoted_list(files) +
+                            (files.size() == 1 ? ": has" : ": have") + " no CRS; taken to be in " +
+                            taken.name());
+    }
+    if (geoid_ != nullptr || plane_.crs.heights() == Crs::Heights::Unknown) {
         return;
     }
-    warnings_.push_back((files.size() == 1 ? "file " : "files ") + quoted_list(files) +
-                        (files.size() == 1 ? ": has" : ": have") + " no CRS; taken to be in " + taken.name());
+    files.clear();
+    for (std::size_t s = 0; s < noted_.size(); ++s) {
+        const Noted& noted = noted_[s];
+        if (noted.is_noted && noted.has_z && !noted.is_guessed &&
+            noted.crs.heights() == Crs::Heights::Unknown) {
+            files.push_back(sources_[s].path);
+        }
+    }
+    if (!files.empty()) {
+        warnings_.push_back((files.size() == 1 ? "file " : "files ") + quoted_list(files) +
+                            (files.size() == 1 ? ": does" : ": do") +
+                            " not say what elevations are measured from; taken to be as in " +
+                            plane_.crs.name());
+    }
 }
 
 std::vector<std::size_t> Placement::place(std::size_t s, std::span<Point3> points, const Progress& progress) {

@@ -27,6 +27,7 @@ struct CoordinateSystem {
     bool is_lon_lat = false;      ///< columns are called longitude and latitude
     bool is_north_first = false;  ///< x is northing or latitude
     std::string z_unit;           ///< where the file itself tells it
+    bool has_z = true;            ///< of its own
 };
 
 struct PlacementOptions {
@@ -72,6 +73,7 @@ class Placement {
         std::string z_unit;  // empty when unknown
         std::optional<double> epoch;
         bool is_noted = false;
+        bool has_z = true;
         bool is_guessed = false;  // carries no system
         Box bounds;               // of points in a plane
     };

@@ -160,6 +160,8 @@ class LineReader {
                 read.points[i].z = 0;  // a transformation of a NaN fails
             }
         }
+        read.own.has_z =
+            std::find(read.is_draped.begin(), read.is_draped.end(), false) != read.is_draped.end();
         placement_.note(s, read.own, read.points);
     }
 

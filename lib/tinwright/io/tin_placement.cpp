@@ -47,7 +47,13 @@ WorkingPlane place_tin(TinFile& file, const Source& source, const ReadOptions& o
     const std::vector<std::string> warnings = placement.take_warnings();
     file.warnings.insert(file.warnings.end(), warnings.begin(), warnings.end());
     file.crs = placement.plane().crs;
-    return placement.plane();
+    WorkingPlane plane = placement.plane();
+    const bool is_own = !options.plane.crs.is_known() && !options.crs.is_plane();
+    if (plane.origin == WorkingPlane::Origin::Asked && (is_own || !plane.is_source_geographic())) {
+        plane.origin =
+            WorkingPlane::Origin::Shared;  // the file's, whether its vertices are given in it or not
+    }
+    return plane;
 }
 
 }  // namespace tinwright::io
