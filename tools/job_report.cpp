@@ -187,11 +187,11 @@ std::string duplicates_line(const JobReport& report, const DuplicateReport& dupl
     return text;
 }
 
-std::string conflict_lines(const DuplicateReport& duplicates) {
+std::string conflict_lines(const DuplicateReport& duplicates, const io::OutputPositions& positions) {
     std::string lines;
     for (const DuplicateConflict& conflict : duplicates.first) {
-        lines += "    at (" + decimal_text(conflict.location.x) + ", " + decimal_text(conflict.location.y) +
-                 "): z from " + decimal_text(conflict.z_min) + " to " + decimal_text(conflict.z_max) + "\n";
+        lines += "    at " + location_text(positions.transform({conflict.location.x, conflict.location.y})) +
+                 ": z from " + decimal_text(conflict.z_min) + " to " + decimal_text(conflict.z_max) + "\n";
     }
     return lines;
 }
@@ -425,7 +425,8 @@ std::string report_text(const JobReport& report, const Surface& surface, const R
     add("quantum", quantum_line(surface.tin.lattice));
     if (surface.report && surface.report->duplicates.equal + surface.report->duplicates.conflicting > 0) {
         add("duplicates", duplicates_line(report, surface.report->duplicates));
-        text += detail.conflicts ? conflict_lines(surface.report->duplicates) : "";
+        text +=
+            detail.conflicts ? conflict_lines(surface.report->duplicates, surface.output_positions()) : "";
     }
     for (const auto& [label, line] : lines_lines(surface.lines)) {
         add(label, line);
