@@ -114,6 +114,42 @@ TEST_SUITE("io/write_tin") {
         CHECK(dataset->GetLayerByName("vertices")->GetFeatureCount() == 3);
     }
 
+    TEST_CASE("every format keeps positions given in another system, and areas of the ground") {
+        const Tin tin = example_tin(7, 60);
+        WriteTinOptions options = some_options();
+        for (std::uint32_t v = 0; v < tin.vertex_count(); ++v) {  // as degrees have them
+            const Point3 p = tin.position({v});
+            options.positions.push_back({std::round((p.x / 64000 + 1.0 / 3) * 1e12) / 1e12,
+                                         std::round((p.y / 111000) * 1e12) / 1e12});
+        }
+        options.ground.area_function = [](std::span<const Point2> ring) { return 1e-3 * ring[1].x; };
+        for (const char* const name : kFiles) {
+            CAPTURE(name);
+            const TemporaryFolder folder;
+            write_tin(tin, Crs::parse("EPSG:4326"), folder.file(name), options);
+            const GDALDatasetUniquePtr dataset = open(folder.file(name));
+            REQUIRE(dataset != nullptr);
+            std::size_t features = 0;
+            for (const auto& feature : *dataset->GetLayer(0)) {
+                const OGRLinearRing& ring = *feature->GetGeometryRef()->toPolygon()->getExteriorRing();
+                for (int i = 0; i < 3; ++i) {
+                    const auto v = static_cast<std::uint32_t>(
+                        feature->GetFieldAsInteger(std::array{"a", "b", "c"}[static_cast<std::size_t>(i)]));
+                    const bool is_reversed = std::string(name) == "t.shp";  // rings turn the other way there
+                    const int corner = is_reversed ? (3 - i) % 3 : i;
+                    CHECK(ring.getX(corner) == options.positions[v].x);
+                    CHECK(ring.getY(corner) == options.positions[v].y);
+                    CHECK(ring.getZ(corner) == tin.z[v]);
+                }
+                const auto b = static_cast<std::uint32_t>(feature->GetFieldAsInteger("b"));
+                CHECK(feature->GetFieldAsDouble("area") ==
+                      doctest::Approx(1e-3 * tin.position({b}).x).epsilon(1e-9));
+                ++features;
+            }
+            CHECK(features == tin.mesh.count_terrain());
+        }
+    }
+
     TEST_CASE("aspect goes clockwise from north and is empty on level faces") {
         const std::array<std::array<double, 3>, 4> planes = {{{0, 2, 0}, {0, 0, 2}, {2, 2, 0}, {5, 5, 5}}};
         // Elevations at (0,0), (2,0), (0,2); fall lines to the west, south, north and nowhere.

@@ -52,7 +52,7 @@ class OutputPositions {
 std::vector<Point2> written_vertices(const Tin& tin, const OutputPositions& positions);
 
 /// How far what is drawn between two points of a contour is off the contour at most, CRS units of the plane.
-inline constexpr double kChordTolerance = 1e-3;
+inline constexpr double kChordTolerance = 0.01;
 
 /// Contours as they are written. Chords are straight in the plane and not in the output system: those whose
 /// middle would be off by more than `kChordTolerance` get further points, whichever way they run. O(n).
