@@ -17,7 +17,7 @@ namespace tinwright::io {
 
 /// The way from the plane that is worked in to the system that is written.
 ///
-/// Degrees are rounded to 10^-12, other units to 10^-6. Longitudes are in one piece: they go from the data's
+/// Degrees are rounded to 10^-10, other units to 10^-6. Longitudes are in one piece: they go from the data's
 /// west eastward, past 180 where the data lie on both sides of the antimeridian. Of data all around a pole
 /// they are from -180 to 180; what crosses the antimeridian then has ends on both sides.
 class OutputPositions {
