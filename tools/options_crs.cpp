@@ -49,26 +49,36 @@ double epoch_value(const std::string& text) {
     return year;
 }
 
+/// An option whose value, an unset variable of a shell say, must not be empty.
+CLI::Option* add_filled(CLI::App& parser, const std::string& name, std::string& text,
+                        const std::string& placeholder, const std::string& help) {
+    return add_value(parser, name, text, placeholder, help)->each([name](const std::string& value) {
+        if (value.empty()) {
+            throw UsageError(name + " is empty: give it a value, or leave it out");
+        }
+    });
+}
+
 }  // namespace
 
 void CrsOptions::add_to(CLI::App& parser, bool shows_heights) {
-    add_value(parser, "--source-crs", source_crs_text, "CRS", "CRS of sources that carry none (-a_srs)");
-    add_value(parser, "--crs", crs_text, "CRS", "CRS of what is made; projected: worked in as well");
-    add_value(parser, "--working-crs", working_crs_text, "CRS",
-              "plane to work in: auto (default)|utm|local|CRS");
+    add_filled(parser, "--source-crs", source_crs_text, "CRS", "CRS of sources that carry none (-a_srs)");
+    add_filled(parser, "--crs", crs_text, "CRS", "CRS of what is made; projected: worked in as well");
+    add_filled(parser, "--working-crs", working_crs_text, "CRS",
+               "plane to work in: auto (default)|utm|local|CRS");
     const std::string group = shows_heights ? "Options" : "";
-    add_value(parser, "--z-unit", z_unit_text, "UNIT", "of sources that do not tell: metre|foot|...")
+    add_filled(parser, "--z-unit", z_unit_text, "UNIT", "of sources that do not tell: metre|foot|...")
         ->group(group);
-    add_value(parser, "--z-scale", z_scale_text, "FACTOR", "elevations read count times this")->group(group);
-    add_value(parser, "--geoid", geoid_text, "FILE", "geoid to take off ellipsoidal heights (.pgm)")
+    add_filled(parser, "--z-scale", z_scale_text, "FACTOR", "elevations read count times this")->group(group);
+    add_filled(parser, "--geoid", geoid_text, "FILE", "geoid to take off ellipsoidal heights (.pgm)")
         ->group(group);
     // Told of in the manual pages.
-    add_value(parser, "--max-distortion", max_distortion_text, "PERCENT", "of the plane (default 0.1)")
+    add_filled(parser, "--max-distortion", max_distortion_text, "PERCENT", "of the plane (default 0.1)")
         ->group("");
-    add_value(parser, "--target-z-unit", target_z_unit_text, "UNIT", "elevations are converted to it")
+    add_filled(parser, "--target-z-unit", target_z_unit_text, "UNIT", "elevations are converted to it")
         ->group("");
-    add_value(parser, "--heights", heights_text, "KIND", "with --geoid: orthometric|ellipsoidal")->group("");
-    add_value(parser, "--epoch", epoch_text, "YEAR", "when coordinates were measured")->group("");
+    add_filled(parser, "--heights", heights_text, "KIND", "with --geoid: orthometric|ellipsoidal")->group("");
+    add_filled(parser, "--epoch", epoch_text, "YEAR", "when coordinates were measured")->group("");
 }
 
 void CrsOptions::finish() {

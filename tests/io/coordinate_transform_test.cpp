@@ -224,7 +224,7 @@ TEST_SUITE("io/coordinate_transform") {
         const CoordinateTransform way = between("+proj=utm +zone=32 +ellps=intl +type=crs", "EPSG:4326");
         CHECK(
             way.warning() ==
-            "from unknown to EPSG:4326 (WGS 84): the shift between the two datums is unknown and taken to be "
+            "from unnamed, Transverse Mercator to EPSG:4326 (WGS 84): the shift between the two datums is unknown and taken to be "
             "none, so that positions may be off by up to hundreds of metres");
         CHECK(!way.accuracy());
         for (const char* const to : {"EPSG:32632", "EPSG:3857", "EPSG:3031", "EPSG:4979", "EPSG:4326+5773"}) {

@@ -215,6 +215,45 @@ TEST_SUITE("io/placement") {
             "them first, for example to EPSG:4979");
     }
 
+    TEST_CASE("what is no longitude and latitude is refused by its row, or skipped") {
+        const std::string typo = "27,60.5,1\n1009,60.5,2\n28,61,3\n";
+        const std::string message =
+            R"(file "/vsimem/p.csv", line 3: (1009, 60.5) is no longitude and latitude; is )"
+            "EPSG:4326 (WGS 84) the right CRS?; --skip-bad goes on without it";
+        CHECK(message_of<InputError>([&] { read_lon_lat(typo); }) == message);
+        ReadOptions options;
+        options.skip_bad = true;
+        const Samples samples = read_lon_lat(typo, options);
+        CHECK(samples.points.size() == 2);
+        CHECK(samples.slices[0].skipped == 1);
+        CHECK(samples.crs.code() == "EPSG:32635");
+        CHECK(message_of<InputError>([&] {
+                  read_lon_lat("348942,5397905,1\n");
+              }).find("(348942, 5397905) is no longitude and latitude") != std::string::npos);
+    }
+
+    TEST_CASE("vertical systems alone are refused") {
+        CHECK(message_of<UsageError>([&] {
+                  read_lon_lat("27,60.5,1\n", {}, "EPSG:5773");
+              }).find("is for elevations alone") != std::string::npos);
+        ReadOptions options;
+        options.crs = Crs::parse("EPSG:5773");
+        CHECK(
+            message_of<UsageError>([&] { read_lon_lat("27,60.5,1\n", options); }) ==
+            "--crs EPSG:5773 (EGM96 height) is for elevations alone; put one for positions before it, as in "
+            "EPSG:4326+5773");
+    }
+
+    TEST_CASE("heights that nobody knows the reference of are told of when one is asked for") {
+        ReadOptions options;
+        options.crs = Crs::parse("EPSG:32635+5773");
+        const Samples samples = read_lon_lat("27,60.5,1\n", options);
+        CHECK(samples.points[0].z == 1);
+        REQUIRE(samples.warnings.size() == 1);
+        CHECK(samples.warnings[0].starts_with(
+            R"(file "/vsimem/p.csv": does not say what elevations are measured from)"));
+    }
+
     TEST_CASE("axes in the authority's order are put right") {
         std::string features;
         for (const char* const position : {"60.5 27 5", "61 28 6"}) {

@@ -453,11 +453,11 @@ TEST_SUITE("io/read_lines") {
         options.crs = Crs::parse("EPSG:25832");
         CHECK(message_of<InputError>([&] { read_one(path, LineRole::Breakline, options); })
                   .starts_with(
-                      R"(file "/vsimem/far.gpkg", layer "l", feature 2: (9.1, 480) cannot be transformed)"));
+                      R"(file "/vsimem/far.gpkg", layer "l", feature 2: (9.1, 480) is no longitude and latitude)"));
         options.skip_bad = true;
         CHECK(features_of(read_one(path, LineRole::Breakline, options)) == std::vector<std::int64_t>{1});
         // Without a system asked for, the lines that are somewhere choose the plane.
-        CHECK(message_of<InputError>([&] { read_one(path); }).find("feature 2: (9.1, 480) cannot be transformed") !=
+        CHECK(message_of<InputError>([&] { read_one(path); }).find("feature 2: (9.1, 480) is no longitude and latitude") !=
               std::string::npos);
     }
 

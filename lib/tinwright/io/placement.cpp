@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <limits>
 #include <locale>
 #include <sstream>
 #include <utility>
@@ -28,6 +30,11 @@ std::string number(double value) {
     text.precision(15);
     text << value;
     return text.str();
+}
+
+/// Whether a position, in units of so many degrees, is no longitude and latitude however one counts.
+bool is_stray(const Point3& point, double degrees) {
+    return !(std::abs(point.x) * degrees <= 360) || !(std::abs(point.y) * degrees <= 90);
 }
 
 /// Refuses a vertical system alone.
@@ -109,7 +116,8 @@ Placement::Placement(std::span<const Source> sources, PlacementOptions options)
     }
 }
 
-void Placement::note(std::size_t s, const CoordinateSystem& own, std::span<Point3> points) {
+std::vector<std::size_t> Placement::note(std::size_t s, const CoordinateSystem& own,
+                                         std::span<Point3> points) {
     Noted& noted = noted_[s];
     noted.crs = system_of(s, own);
     noted.epoch = noted.crs.epoch() ? noted.crs.epoch() : options_.epoch;
@@ -131,14 +139,31 @@ void Placement::note(std::size_t s, const CoordinateSystem& own, std::span<Point
         noted.crs = options_.crs;
     }
     if (noted.crs.is_geographic()) {
-        for (std::size_t begin = 0; begin < points.size(); begin += kBlock) {
-            extent_.add(
-                in_degrees(points.subspan(begin, std::min(kBlock, points.size() - begin)), noted.crs));
-        }
+        note_degrees(noted, points);
     } else {
         for (const Point3& point : points) {
             noted.bounds.add(point.x, point.y);
         }
+    }
+    return noted.strays;
+}
+
+/// Gathers the extent, and the points that are none of the earth's: PROJ would count longitudes round and
+/// round.
+void Placement::note_degrees(Noted& noted, std::span<const Point3> points) {
+    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+    const double degrees = degrees_per_unit(noted.crs);
+    for (std::size_t begin = 0; begin < points.size(); begin += kBlock) {
+        const std::size_t count = std::min(kBlock, points.size() - begin);
+        std::vector<Point3> block(points.begin() + static_cast<std::ptrdiff_t>(begin),
+                                  points.begin() + static_cast<std::ptrdiff_t>(begin + count));
+        for (std::size_t i = 0; i < count; ++i) {
+            if (is_stray(block[i], degrees)) {
+                block[i] = {kNone, kNone, 0};
+                noted.strays.push_back(begin + i);
+            }
+        }
+        extent_.add(in_degrees(block, noted.crs));
     }
 }
 
@@ -359,9 +384,14 @@ std::vector<std::size_t> Placement::place(std::size_t s, std::span<Point3> point
         for_each_point(points, [&](Point3& point, std::size_t) { point.z *= options_.heights.scale; });
     }
     const bool is_plane_new = noted.crs.is_known() && !noted.crs.is_same_horizontally(plane_.crs);
-    const bool is_datum_new = geoid_ == nullptr && noted.crs.heights() != Crs::Heights::Unknown &&
+    const bool is_datum_new = noted.crs.heights() != Crs::Heights::Unknown &&
                               plane_.crs.heights() != Crs::Heights::Unknown &&
-                              !noted.crs.has_same_heights(plane_.crs);
+                              !noted.crs.has_same_heights(plane_.crs) &&
+                              (geoid_ == nullptr || noted.crs.heights() == plane_.crs.heights());
+    std::vector<Point3> strays;
+    for (const std::size_t i : noted.strays) {
+        strays.push_back(points[i]);
+    }
     std::vector<Point3> degrees;
     if (geoid_ != nullptr) {
         degrees = geographic_positions(noted, points);
@@ -380,7 +410,16 @@ std::vector<std::size_t> Placement::place(std::size_t s, std::span<Point3> point
     if (geoid_ != nullptr) {
         shift_to_wanted_heights(s, degrees, points, progress);
     }
-    return failed;
+    if (noted.strays.empty()) {
+        return failed;
+    }
+    std::vector<std::size_t> all;
+    std::set_union(failed.begin(), failed.end(), noted.strays.begin(), noted.strays.end(),
+                   std::back_inserter(all));
+    for (std::size_t k = 0; k < strays.size(); ++k) {
+        points[noted.strays[k]] = strays[k];
+    }
+    return all;
 }
 
 /// Positions in degrees, for the geoid.
@@ -456,10 +495,14 @@ void Placement::shift_to_wanted_heights(std::size_t s, std::span<const Point3> a
                    progress);
 }
 
-std::string Placement::failure(const Point3& point) const {
+std::string Placement::failure(std::size_t s, const Point3& point) const {
     std::string text = number(point.x) + ", " + number(point.y);
     text.insert(text.begin(), '(');
-    return text + ") cannot be transformed from " + from_.name() + " to " + plane_.crs.name();
+    const Crs& crs = noted_[s].crs;
+    if (crs.is_geographic() && is_stray(point, degrees_per_unit(crs))) {
+        return text + ") is no longitude and latitude; is " + crs.name() + " the right CRS?";
+    }
+    return text + ") cannot be transformed from " + crs.name() + " to " + plane_.crs.name();
 }
 
 std::vector<std::string> Placement::take_warnings() { return std::exchange(warnings_, {}); }

@@ -49,16 +49,18 @@ class Placement {
     Placement(std::span<const Source> sources, PlacementOptions options);
 
     /// Says what source `s` is in; puts easting first. Throws InputError for geocentric coordinates, and for
-    /// longitudes and latitudes in an unknown system.
-    void note(std::size_t s, const CoordinateSystem& own, std::span<Point3> points);
+    /// longitudes and latitudes in an unknown system. Returns the ascending positions of points that are no
+    /// longitude and latitude though their system has such: those `place` returns too.
+    std::vector<std::size_t> note(std::size_t s, const CoordinateSystem& own, std::span<Point3> points);
     /// Throws InputError when systems differ and none was asked for, and when no plane is true enough.
     void choose_plane();
     /// Brings the points of source `s` into the plane, in place, parallel inside the caller's task arena.
     /// Returns the ascending positions of those that cannot be transformed, left as they were. Points must
     /// have a finite z. Throws InputError when there is no way between the systems.
     std::vector<std::size_t> place(std::size_t s, std::span<Point3> points, const Progress& progress = {});
-    /// Why a point that `place` returned is none of the plane: `(x, y) cannot be transformed from A to B`.
-    [[nodiscard]] std::string failure(const Point3& point) const;
+    /// Why a point that `note` or `place` returned is none of the plane: `(x, y) cannot be transformed from A
+    /// to B`, or `(x, y) is no longitude and latitude`.
+    [[nodiscard]] std::string failure(std::size_t s, const Point3& point) const;
 
     [[nodiscard]] const WorkingPlane& plane() const { return plane_; }
     /// Of all elevations placed; empty when unknown.
@@ -74,8 +76,9 @@ class Placement {
         std::optional<double> epoch;
         bool is_noted = false;
         bool has_z = true;
-        bool is_guessed = false;  // carries no system
-        Box bounds;               // of points in a plane
+        bool is_guessed = false;          // carries no system
+        Box bounds;                       // of points in a plane
+        std::vector<std::size_t> strays;  // points that are no longitude and latitude, ascending
     };
 
     Crs system_of(std::size_t s, const CoordinateSystem& own);
@@ -83,6 +86,7 @@ class Placement {
     [[nodiscard]] const Noted* first_known() const;
     void require_shared_system() const;
     [[nodiscard]] bool is_asked_for() const;
+    void note_degrees(Noted& noted, std::span<const Point3> points);
     void choose_horizontally();
     void choose_heights();
     void choose_z_unit();

@@ -162,7 +162,12 @@ class LineReader {
         }
         read.own.has_z =
             std::find(read.is_draped.begin(), read.is_draped.end(), false) != read.is_draped.end();
-        placement_.note(s, read.own, read.points);
+        const std::vector<std::size_t> strays = placement_.note(s, read.own, read.points);
+        if (!strays.empty() && !options_.skip_bad) {
+            const std::size_t line = read.line_of[strays.front()];
+            read.raw.add_bad(read.plan, read.raw.parts[line].feature,
+                             placement_.failure(s, read.points[strays.front()]));
+        }
     }
 
     /// Brings the lines into the plane; features that cannot be are bad.
@@ -182,7 +187,7 @@ class LineReader {
         std::vector<std::pair<std::size_t, std::string>> bad;
         bad.reserve(failed.size());
         for (const std::size_t i : failed) {
-            bad.emplace_back(read.line_of[i], placement_.failure(points[i]));
+            bad.emplace_back(read.line_of[i], placement_.failure(s, points[i]));
         }
         drop_features(read.plan, raw, bad);
     }

@@ -143,8 +143,14 @@ class SampleReader {
     }
 
     void note(std::size_t s) {
-        const RawSlice& raw = reads_[s].raw;
-        placement_.note(s, {raw.crs, raw.is_lon_lat, raw.is_north_first, raw.z_unit}, points_of(s));
+        RawSlice& raw = reads_[s].raw;
+        const std::vector<std::size_t> strays =
+            placement_.note(s, {raw.crs, raw.is_lon_lat, raw.is_north_first, raw.z_unit}, points_of(s));
+        if (!strays.empty() && !options_.skip_bad) {
+            const Point3& first = points_of(s)[strays.front()];
+            raw.bad.add(describe_id(slice_of(s), raw.ids.all()[strays.front()]) + ": " +
+                        placement_.failure(s, first));
+        }
     }
 
     /// Brings a slice's points into the plane; those that cannot be are bad.
@@ -160,7 +166,7 @@ class SampleReader {
         const std::vector<std::int64_t> ids = read.raw.ids.all();
         const SampleSlice slice = slice_of(s);
         for (const std::size_t i : read.failed) {
-            read.raw.bad.add(describe_id(slice, ids[i]) + ": " + placement_.failure(points[i]));
+            read.raw.bad.add(describe_id(slice, ids[i]) + ": " + placement_.failure(s, points[i]));
         }
         read.raw.ids.erase(read.failed);
         refuse_nothing(sources_[s], read.raw, read.count - read.failed.size());

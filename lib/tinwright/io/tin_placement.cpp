@@ -42,7 +42,7 @@ WorkingPlane place_tin(TinFile& file, const Source& source, const ReadOptions& o
     const std::vector<std::size_t> failed = placement.place(0, file.vertices);
     if (!failed.empty()) {
         throw InputError("file " + quoted(source.path) + ": vertex at " +
-                         placement.failure(file.vertices[failed.front()]));
+                         placement.failure(0, file.vertices[failed.front()]));
     }
     const std::vector<std::string> warnings = placement.take_warnings();
     file.warnings.insert(file.warnings.end(), warnings.begin(), warnings.end());
