@@ -372,6 +372,9 @@ JsonValue make_json(const JobReport& report, const Surface& surface) {
         json.set("working_crs", plane_json(surface.plane));
     }
     set_lengths(json, surface.ground, surface.crs);
+    if (!report.graph) {
+        json.set("z_unit", z_unit_json(surface));
+    }
     if (surface.report) {
         json.set("samples", surface.report->samples);
     }
@@ -392,7 +395,6 @@ JsonValue make_json(const JobReport& report, const Surface& surface) {
     if (report.graph) {
         json.set("graph", graph_json(*report.graph));
     } else {
-        json.set("z_unit", z_unit_json(surface));
         set_face_keys(json, surface);
         json.set("domain", report.domain);
     }
