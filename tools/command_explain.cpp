@@ -71,7 +71,9 @@ Outcome CommandExplain::run() {
     const bool is_tin = is_existing_tin(request);
     const Surface surface =
         is_tin ? read_existing_tin(request, console) : triangulate_sources(request, console);
-    warn_of_slopes(surface, console);
+    if (surface.crs.unit() != "metre") {
+        warn_of_slopes(surface, console);  // feet and metres are easily mixed
+    }
     const io::Crs place_crs = surface.place_crs(crs);
     const ExplainOptions options{at,
                                  place_in_plane(at, place_crs, surface.crs),

@@ -51,11 +51,14 @@ Outcome CommandInfo::run() {
     run_with_threads(triangulation.threads, [&] {
         quality = assess_quality(surface.tin, kWorstFaces, surface.ground, surface.z_factor);
     });
-    warn_of_slopes(surface, console);
+    if (surface.crs.unit() != "metre") {
+        warn_of_slopes(surface, console);  // feet and metres are easily mixed
+    }
     console.progress().finish();
 
     JobReport report;
     report.command = "info";
+    report.tells_slopes = true;
     report.domain = is_tin ? "as in the TIN" : triangulation.domain_name();
     report.duplicate_policy = triangulation.policy_name();
     if (talk.json) {

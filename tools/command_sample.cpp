@@ -164,6 +164,7 @@ void CommandSample::report(const SampledCounts& counts, const Surface& surface, 
                            const std::string& driver, Console& console) const {
     JobReport job;
     job.command = "sample";
+    job.tells_slopes = true;
     job.domain = is_tin ? "as in the TIN" : triangulation.domain_name();
     job.duplicate_policy = triangulation.policy_name();
     job.details = {{"sampled", counts_text(counts)}};
@@ -203,7 +204,9 @@ Outcome CommandSample::run() {
     const bool is_tin = is_existing_tin(request);
     const Surface surface =
         is_tin ? read_existing_tin(request, console) : triangulate_sources(request, console);
-    warn_of_slopes(surface, console);
+    if (surface.crs.unit() != "metre") {
+        warn_of_slopes(surface, console);  // feet and metres are easily mixed
+    }
     const Queries queries = read_places(lines_wanted, surface, console);
     std::string driver;
     const SampledCounts counts = write_samples(queries, surface, console, driver);

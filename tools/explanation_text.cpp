@@ -232,6 +232,9 @@ std::string explanation_text(const Explanation& explanation, const Surface& surf
                 (has_incline ? ", slope " + incline_text(method.reading.gradient, options.slope_unit) : ""));
         text.add("  shares", shares_text(method.weights));
     }
+    if (is_z_unit_assumed(surface)) {
+        text.add("z unit", z_unit_text(surface));
+    }
     return text.take();
 }
 

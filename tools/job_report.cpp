@@ -292,17 +292,6 @@ JsonValue z_unit_json(const Surface& surface) {
 }
 
 /// "US survey foot, 0.304801 of the CRS's unit", "metre, assumed".
-std::string z_unit_line(const Surface& surface) {
-    if (surface.z_unit.empty()) {
-        const std::string unit = surface.crs.unit();
-        return unit.empty() ? "unknown" : unit + ", assumed";
-    }
-    std::array<char, 48> factor{};
-    std::snprintf(factor.data(), factor.size(), "%.6g", surface.z_factor);
-    return surface.z_unit +
-           (surface.z_factor == 1 ? std::string() : ", " + std::string(factor.data()) + " of the CRS's unit");
-}
-
 std::string times_line(const JobReport& report, const Surface& surface) {
     std::string times = "read " + fixed(surface.read_seconds, 2);
     times += surface.water ? ", water " + fixed(surface.water->report.seconds, 2) : "";
@@ -474,10 +463,11 @@ std::string report_text(const JobReport& report, const Surface& surface, const R
         const std::string type = report.raster ? ", " + report.raster->written.data_type : std::string();
         add("wrote", report.outputs[i] + (i == 0 ? " (" + report.output_driver + type + ")" : ""));
     }
+    const bool is_said = report.tells_slopes && is_z_unit_assumed(surface);
+    if (is_said || (detail.times && !report.graph)) {
+        add("z unit", z_unit_text(surface));
+    }
     if (detail.times) {
-        if (!report.graph) {
-            add("z unit", z_unit_line(surface));
-        }
         add("seconds", times_line(report, surface));
         add("memory", fixed(static_cast<double>(peak_memory_bytes()) / 1048576.0, 0) + " MiB at the peak");
     }

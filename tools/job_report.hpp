@@ -30,6 +30,7 @@ struct RasterReport {
 /// What a finished command has to tell, once for people and once as JSON (docs/json.md).
 struct JobReport {
     std::string command;
+    bool tells_slopes = false;  ///< the unit that z is assumed to be in has to be told
     std::string domain;
     std::string duplicate_policy;
     std::optional<RasterReport> raster;

@@ -1,7 +1,9 @@
 #include "surface_input.hpp"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
+#include <cstdio>
 #include <utility>
 
 #include "tinwright/geometry/error.hpp"
@@ -242,6 +244,21 @@ io::TinMetadata unit_metadata(const Surface& surface) {
 
 double z_factor_of(const io::TinFile& file, const CrsOptions& options) {
     return io::unit_factor(z_unit_of(file.metadata, file.crs, options), file.crs.unit());
+}
+
+bool is_z_unit_assumed(const Surface& surface) {
+    return surface.z_unit.empty() && !surface.crs.unit().empty();
+}
+
+std::string z_unit_text(const Surface& surface) {
+    if (surface.z_unit.empty()) {
+        const std::string unit = surface.crs.unit();
+        return unit.empty() ? "unknown" : unit + ", assumed";
+    }
+    std::array<char, 48> factor{};
+    std::snprintf(factor.data(), factor.size(), "%.6g", surface.z_factor);
+    return surface.z_unit +
+           (surface.z_factor == 1 ? std::string() : ", " + std::string(factor.data()) + " of the CRS's unit");
 }
 
 void warn_of_slopes(const Surface& surface, Console& console) {

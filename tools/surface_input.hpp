@@ -102,6 +102,12 @@ io::TinMetadata unit_metadata(const Surface& surface);
 /// CRS units in a unit of z of a TIN file that lies in a plane; 1 where either is unknown.
 double z_factor_of(const io::TinFile& file, const CrsOptions& options);
 
+/// Whether slopes take z to be in the unit of the CRS because nobody says its own.
+bool is_z_unit_assumed(const Surface& surface);
+
+/// "metre", "foot, 0.3048 of the CRS's unit", "metre, assumed", "unknown".
+std::string z_unit_text(const Surface& surface);
+
 /// For commands that tell slopes: warns, once a run, where their units are in doubt.
 void warn_of_slopes(const Surface& surface, Console& console);
 
