@@ -19,6 +19,7 @@ namespace {
 // decimals of up to nine places, a tenth of a millimetre, come back as they were.
 constexpr double kDegreeSteps = 1e10;
 constexpr double kLengthSteps = 1e6;  // and to another unit
+constexpr double kFiner = 100;        // where vertices would not come back to their places in the plane
 constexpr int kNet = 16;              // parts that bounds are divided into each way
 
 double rounded(double value, double steps) {
@@ -77,11 +78,22 @@ struct OutputPositions::State {
           names("from " + plane.name() + " to " + output.name()),
           is_geographic(output.is_geographic()) {}
 
-    [[nodiscard]] Point2 finished(Point2 p) const {
-        if (!is_geographic) {
-            return {rounded(p.x, kLengthSteps), rounded(p.y, kLengthSteps)};
+    [[nodiscard]] Point2 finished(Point2 p, double finer = 1) const {
+        const double steps = finer * (is_geographic ? kDegreeSteps : kLengthSteps);
+        return {rounded(is_geographic ? eastward_from(cut, p.x) : p.x, steps), rounded(p.y, steps)};
+    }
+    [[nodiscard]] std::vector<Point3> transformed(std::span<const Point2> positions,
+                                                  const Progress& progress) const {
+        std::vector<Point3> points;
+        points.reserve(positions.size());
+        for (const Point2 p : positions) {
+            points.push_back({p.x, p.y, 0});
         }
-        return {rounded(eastward_from(cut, p.x), kDegreeSteps), rounded(p.y, kDegreeSteps)};
+        const std::vector<std::size_t> failed = transform.forward(std::span(points), progress);
+        if (!failed.empty()) {
+            refuse(positions[failed.front()]);
+        }
+        return points;
     }
     [[noreturn]] void refuse(Point2 p) const {
         throw InputError("(" + decimal_text(p.x) + ", " + decimal_text(p.y) + ") cannot be transformed " +
@@ -115,17 +127,33 @@ std::vector<Point2> OutputPositions::transform(std::span<const Point2> positions
     if (is_identity()) {
         return written;
     }
-    std::vector<Point3> points;
-    points.reserve(positions.size());
-    for (const Point2 p : positions) {
-        points.push_back({p.x, p.y, 0});
-    }
-    const std::vector<std::size_t> failed = state_->transform.forward(std::span(points), progress);
-    if (!failed.empty()) {
-        state_->refuse(positions[failed.front()]);
-    }
+    const std::vector<Point3> points = state_->transformed(positions, progress);
     for (std::size_t i = 0; i < points.size(); ++i) {
         written[i] = state_->finished({points[i].x, points[i].y});
+    }
+    return written;
+}
+
+std::vector<Point2> OutputPositions::transform_reversibly(std::span<const Point2> positions) const {
+    std::vector<Point2> written(positions.begin(), positions.end());
+    if (is_identity()) {
+        return written;
+    }
+    const std::vector<Point3> points = state_->transformed(positions, {});
+    std::vector<Point3> back;
+    back.reserve(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        written[i] = state_->finished({points[i].x, points[i].y});
+        back.push_back({written[i].x, written[i].y, 0});
+    }
+    state_->transform.inverse(std::span(back));
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        // Readers round to the plane's steps.
+        const bool is_back = rounded(back[i].x, kLengthSteps) == rounded(positions[i].x, kLengthSteps) &&
+                             rounded(back[i].y, kLengthSteps) == rounded(positions[i].y, kLengthSteps);
+        if (!is_back) {
+            written[i] = state_->finished({points[i].x, points[i].y}, kFiner);
+        }
     }
     return written;
 }
@@ -184,7 +212,7 @@ std::vector<Point2> written_vertices(const Tin& tin, const OutputPositions& posi
         const Point3 p = tin.position({v});
         vertices.push_back({p.x, p.y});
     }
-    return positions.transform(vertices);
+    return positions.transform_reversibly(vertices);
 }
 
 namespace {

@@ -38,6 +38,9 @@ class OutputPositions {
     [[nodiscard]] std::vector<Point2> transform(std::span<const Point2> positions,
                                                 const Progress& progress = {}) const;
     [[nodiscard]] Point2 transform(Point2 position) const;
+    /// As `transform`, with two more decimals where the plane's 10^-6 would not come back without: faces that
+    /// are thinner than what is rounded away must not turn over.
+    [[nodiscard]] std::vector<Point2> transform_reversibly(std::span<const Point2> positions) const;
     /// Likewise, in place; z stays.
     void apply_to(std::span<Point3> points) const;
     /// The bounds of what lies within bounds of the plane: corners and points between them transformed.

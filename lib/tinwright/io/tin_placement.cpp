@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <string>
 
 #include "tinwright/geometry/error.hpp"
 #include "tinwright/io/gdal_session.hpp"
@@ -8,31 +9,46 @@
 namespace tinwright::io {
 namespace {
 
-/// The plane that the file's vertices were made in, where it says so.
-Crs recorded_plane(const TinMetadata& metadata) {
+std::string recorded(const TinMetadata& metadata, const std::string& wanted) {
     for (const auto& [key, value] : metadata) {
-        if (key == "TINWRIGHT_WORKING_CRS") {
-            return Crs::parse(value);
+        if (key == wanted) {
+            return value;
         }
     }
     return {};
+}
+
+/// The plane that the file's vertices were made in, where it says so.
+Crs recorded_plane(const TinMetadata& metadata) {
+    const std::string plane = recorded(metadata, "TINWRIGHT_WORKING_CRS");
+    return plane.empty() ? Crs() : Crs::parse(plane);
+}
+
+/// Drivers may claim heights that nobody gave: GDAL's GeoJSON has metres above the ellipsoid wherever
+/// positions have a z. The unit that was written with the TIN counts.
+void drop_claimed_heights(TinFile& file) {
+    const std::string unit = recorded(file.metadata, "TINWRIGHT_Z_UNIT");
+    if (!unit.empty() && !file.crs.z_unit().empty() && file.crs.z_unit() != unit) {
+        file.crs = file.crs.horizontal();
+    }
 }
 
 }  // namespace
 
 WorkingPlane place_tin(TinFile& file, const Source& source, const ReadOptions& options) {
     PlacementOptions placing{options.crs, options.source_crs, options.plane, {}, options.epoch, false, {}};
+    drop_claimed_heights(file);
     if (!file.crs.is_known()) {
         file.crs = options.source_crs.is_known() ? options.source_crs : options.crs;
     }
-    if (file.crs.is_geographic() && placing.plane.rule == PlaneRequest::Rule::Auto &&
-        !options.crs.is_plane()) {
-        if (const Crs plane = recorded_plane(file.metadata); plane.is_known()) {
-            placing.plane.rule = PlaneRequest::Rule::Given;
-            placing.plane.crs = plane;
-        }
+    const Crs made_in = recorded_plane(file.metadata);
+    const bool is_moved =
+        file.crs.is_known() && made_in.is_known() && !made_in.is_same_horizontally(file.crs);
+    if (is_moved && placing.plane.rule == PlaneRequest::Rule::Auto && !options.crs.is_plane()) {
+        placing.plane.rule = PlaneRequest::Rule::Given;
+        placing.plane.crs = made_in;
     }
-    if (!file.crs.is_geographic()) {
+    if (!file.crs.is_geographic() && !is_moved) {
         placing.crs = file.crs;  // its faces are as they are
         placing.plane.rule = PlaneRequest::Rule::Auto;
     }
