@@ -127,7 +127,8 @@ CheckedSurface check_surface(const io::Source& source, const CrsOptions& crs,
     const double audited = begin + (end - begin) * (optimality.criterion ? 0.2 : 1.0);
     io::TinFile file = io::read_tin_file(source, progress.stage(begin, read));
     const io::Crs own_crs = file.crs;
-    if (file.crs.is_geographic()) {
+    const bool is_moved = !metadata_value(file.metadata, "TINWRIGHT_WORKING_CRS").empty();
+    if (file.crs.is_geographic() || (file.crs.is_known() && is_moved)) {
         io::ReadOptions placing;
         crs.apply_to(placing);
         io::place_tin(file, source, placing);
