@@ -149,6 +149,7 @@ Outcome CommandContour::run() {
     report.contours = summarize(made, surface.ground, interpolation.method_text);
     report.contours->seconds = seconds_since(start);
 
+    warn_of_pole(surface, console);
     options.metadata = output_metadata("contour", surface, triangulation, lines,
                                        interpolation.canonical() + " " + contours.canonical());
     options.progress = console.progress().stage(0.8, 1);

@@ -134,6 +134,20 @@ GridGeometry CommandGrid::grid_for(const Surface& surface) const {
     return choose_grid(basis, request);
 }
 
+void CommandGrid::check_degrees(const Surface& surface, const GridGeometry& grid) const {
+    const Box extent = grid.extent();
+    const bool is_asked_for = raster.request.extent.has_value();
+    if (!is_asked_for || !surface.output_crs.is_geographic() || surface.output_crs.unit() != "degree") {
+        return;
+    }
+    const double cell = grid.cell_height;  // whole cells may reach beyond a pole
+    if (extent.y_min < -90 - cell || extent.y_max > 90 + cell || extent.x_min < -360 || extent.x_max > 720) {
+        throw UsageError(
+            "--extent is in the CRS of the raster, " + surface.output_crs.name() +
+            ", and goes beyond its longitudes and latitudes; give west south east north in degrees");
+    }
+}
+
 RasterPlacing CommandGrid::placing_for(const Surface& surface, const GridGeometry& grid) const {
     RasterPlacing placing;
     if (!surface.is_written_in_plane()) {
@@ -266,6 +280,7 @@ Outcome CommandGrid::run() {
     Surface surface = is_tin ? read_existing_tin(request, console) : triangulate_sources(request, console);
     surface.output_crs = output_crs(surface, like_crs);
     const GridGeometry grid = like ? *like : grid_for(surface);
+    check_degrees(surface, grid);
     const RasterPlacing placing = placing_for(surface, grid);
     if (like_crs.is_known() && !surface.crs.is_known()) {
         console.warn("the source carries no CRS, so the raster has none, though --like " +

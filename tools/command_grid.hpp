@@ -61,6 +61,8 @@ class CommandGrid : public Command {
     /// --crs, else that of --like, else the plane's, with the surface's heights.
     [[nodiscard]] io::Crs output_crs(const Surface& surface, const io::Crs& like_crs) const;
     /// The raster's geometry in the surface's output CRS, without --like.
+    /// Throws UsageError for an extent that is none of degrees.
+    void check_degrees(const Surface& surface, const GridGeometry& grid) const;
     [[nodiscard]] GridGeometry grid_for(const Surface& surface) const;
     /// Where that is in the surface's plane; as made where they are the same.
     [[nodiscard]] RasterPlacing placing_for(const Surface& surface, const GridGeometry& grid) const;

@@ -241,6 +241,7 @@ Outcome CommandTin::run_tin(Console& console) {
     options.lines = std::move(surface.origins.lines);
     options.progress = console.progress().stage(0.7, 1);
     const auto start = Clock::now();
+    warn_of_pole(surface, console);
     const io::WrittenTin written = io::write_tin(surface.tin, surface.output_crs, output.path, options);
     if (surface.conflicts) {
         surface.conflicts->commit();

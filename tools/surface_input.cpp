@@ -261,6 +261,14 @@ std::string z_unit_text(const Surface& surface) {
            (surface.z_factor == 1 ? std::string() : ", " + std::string(factor.data()) + " of the CRS's unit");
 }
 
+void warn_of_pole(const Surface& surface, Console& console) {
+    if (surface.plane.extent.has_pole && surface.output_crs.is_geographic()) {
+        console.warn("the data go round a pole, and in " + surface.output_crs.name() +
+                     " what crosses the antimeridian jumps by 360 degrees; leave out --crs to write it in " +
+                     surface.crs.name());
+    }
+}
+
 void warn_of_slopes(const Surface& surface, Console& console) {
     if (const std::string warning = slope_warning(surface.crs, surface.z_unit); !warning.empty()) {
         console.warn_once(warning);

@@ -108,6 +108,9 @@ bool is_z_unit_assumed(const Surface& surface);
 /// "metre", "foot, 0.3048 of the CRS's unit", "metre, assumed", "unknown".
 std::string z_unit_text(const Surface& surface);
 
+/// For commands that write lines or faces: warns where degrees tear them, around a pole.
+void warn_of_pole(const Surface& surface, Console& console);
+
 /// For commands that tell slopes: warns, once a run, where their units are in doubt.
 void warn_of_slopes(const Surface& surface, Console& console);
 

@@ -140,7 +140,9 @@ PlaneCandidate make_local_stereographic(const Crs& geographic, const GeographicE
     const std::string name = "tinwright local stereographic at " + place_text(longitude, latitude);
     return make_balanced(extent, "a local stereographic", [&](double k) {
         return make_projected(geographic, name, [&](OGRSpatialReference& system) {
-            return std::abs(latitude) == kPole ? system.SetPS(latitude, longitude, k, 0, 0)
+            // With a scale of just one, formats of the old kind take it for another method (variant B).
+            const double polar = k == 1 ? 0.999999 : k;
+            return std::abs(latitude) == kPole ? system.SetPS(latitude, longitude, polar, 0, 0)
                                                : system.SetOS(latitude, longitude, k, 0, 0);
         });
     });
