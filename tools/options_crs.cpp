@@ -131,6 +131,9 @@ void CrsOptions::apply_to(io::ReadLinesOptions& options, const io::Samples& samp
     options.heights = heights;
     options.epoch = epoch;
     if (samples.crs.is_known()) {
+        if (options.crs.is_geographic() && !options.source_crs.is_known()) {
+            options.source_crs = options.crs;  // as samples without a system are taken to be in it
+        }
         options.crs = samples.crs;
         options.is_plane_decided = true;
     }

@@ -222,10 +222,10 @@ TEST_SUITE("io/coordinate_transform") {
 
     TEST_CASE("a shift that is not known is told of, one within a datum never") {
         const CoordinateTransform way = between("+proj=utm +zone=32 +ellps=intl +type=crs", "EPSG:4326");
-        CHECK(
-            way.warning() ==
-            "from unnamed, Transverse Mercator to EPSG:4326 (WGS 84): the shift between the two datums is unknown and taken to be "
-            "none, so that positions may be off by up to hundreds of metres");
+        CHECK(way.warning() ==
+              "from unnamed, Transverse Mercator to EPSG:4326 (WGS 84): the shift between the two datums is "
+              "unknown and taken to be "
+              "none, so that positions may be off by up to hundreds of metres");
         CHECK(!way.accuracy());
         for (const char* const to : {"EPSG:32632", "EPSG:3857", "EPSG:3031", "EPSG:4979", "EPSG:4326+5773"}) {
             CHECK(between("EPSG:4326", to).warning().empty());

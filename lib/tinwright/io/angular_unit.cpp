@@ -32,4 +32,24 @@ void to_degrees(const Crs& crs, std::vector<Point3>& points) {
     }
 }
 
+std::vector<Point3> in_degrees(std::span<const Point3> points, const Crs& crs) {
+    std::vector<Point3> degrees(points.begin(), points.end());
+    to_degrees(crs, degrees);
+    if (const double meridian = crs.geographic().gdal()->GetPrimeMeridian(); meridian != 0) {
+        for (Point3& point : degrees) {
+            point.x += meridian;
+        }
+    }
+    return degrees;
+}
+
+Crs in_plain_degrees(const Crs& geographic) {
+    const bool is_plain = degrees_per_unit(geographic) == 1 && geographic.gdal()->GetPrimeMeridian() == 0;
+    return is_plain ? geographic : Crs::parse("EPSG:4326");
+}
+
+bool is_stray(const Point3& point, double degrees) {
+    return !(std::abs(point.x) * degrees <= 360) || !(std::abs(point.y) * degrees <= 90);
+}
+
 }  // namespace tinwright::io

@@ -9,18 +9,17 @@
 #include <utility>
 
 #include <ogr_spatialref.h>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 #include "tinwright/geometry/error.hpp"
 #include "tinwright/io/angular_unit.hpp"
+#include "tinwright/io/each_point.hpp"
 #include "tinwright/io/gdal_session.hpp"
 #include "tinwright/io/length_unit.hpp"
 
 namespace tinwright::io {
 namespace {
 
-constexpr std::size_t kBlock = 65536;
+constexpr std::size_t kBlock = 65536;  // points that are looked at together
 
 std::string label(const Source& source) { return "file " + quoted(source.path); }
 
@@ -30,11 +29,6 @@ std::string number(double value) {
     text.precision(15);
     text << value;
     return text.str();
-}
-
-/// Whether a position, in units of so many degrees, is no longitude and latitude however one counts.
-bool is_stray(const Point3& point, double degrees) {
-    return !(std::abs(point.x) * degrees <= 360) || !(std::abs(point.y) * degrees <= 90);
 }
 
 /// Refuses a vertical system alone.
@@ -49,34 +43,6 @@ void require_positions(const std::string& option, const Crs& crs) {
 std::string unit_name(const std::string& spelling) {
     const std::optional<LengthUnit> unit = find_length_unit(spelling);
     return unit ? unit->name : spelling;
-}
-
-template <class Work>
-void for_each_point(std::span<Point3> points, const Work& work) {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points.size(), kBlock), [&](const auto& range) {
-        for (std::size_t i = range.begin(); i != range.end(); ++i) {
-            work(points[i], i);
-        }
-    });
-}
-
-/// Positions in a system as degrees east of Greenwich and north; NaN for those that cannot be.
-std::vector<Point3> in_degrees(std::span<const Point3> points, const Crs& crs) {
-    std::vector<Point3> degrees(points.begin(), points.end());
-    to_degrees(crs, degrees);
-    if (const double meridian = crs.geographic().gdal()->GetPrimeMeridian(); meridian != 0) {
-        for (Point3& point : degrees) {
-            point.x += meridian;
-        }
-    }
-    return degrees;
-}
-
-/// Systems that degrees east of Greenwich can be taken to be in: the system itself, or WGS 84 for one of
-/// other units or another meridian.
-Crs in_plain_degrees(const Crs& geographic) {
-    const bool is_plain = degrees_per_unit(geographic) == 1 && geographic.gdal()->GetPrimeMeridian() == 0;
-    return is_plain ? geographic : Crs::parse("EPSG:4326");
 }
 
 /// Points along the edges and inside of a box.
@@ -294,57 +260,6 @@ void Placement::measure_plane() {
     }
 }
 
-/// What elevations are measured from: as asked for, as the plane given has it, or as the first source says.
-void Placement::choose_heights() {
-    using Heights = Crs::Heights;
-    Crs wanted = options_.crs.heights() != Heights::Unknown ? options_.crs : options_.plane.crs;
-    if (wanted.heights() == Heights::Unknown && geoid_ != nullptr) {
-        const std::string vertical = geoid_->vertical_code();
-        if (!plane_.crs.is_known()) {
-            throw InputError(
-                "--geoid needs to know where on the earth the samples are; give their CRS with "
-                "--source-crs");
-        }
-        plane_.crs = options_.heights.is_to_ellipsoid ? plane_.crs.with_ellipsoidal_heights()
-                     : vertical.empty()               ? plane_.crs.horizontal()
-                                                      : plane_.crs.with_vertical(vertical);
-        return;
-    }
-    for (const Noted& noted : noted_) {
-        if (wanted.heights() == Heights::Unknown && noted.is_noted) {
-            wanted = noted.crs;
-        }
-    }
-    const bool is_known = plane_.crs.is_known() && wanted.heights() != Heights::Unknown;
-    if (is_known && !plane_.crs.has_same_heights(wanted)) {
-        plane_.crs = plane_.crs.with_heights_of(wanted);
-    }
-}
-
-void Placement::choose_z_unit() {
-    const Crs& asked = options_.crs.heights() != Crs::Heights::Unknown ? options_.crs : options_.plane.crs;
-    z_unit_ = options_.z_unit;
-    if (z_unit_.empty()) {
-        z_unit_ = options_.heights.unit;
-    }
-    if (z_unit_.empty()) {
-        z_unit_ = asked.z_unit();
-    }
-    for (const Noted& noted : noted_) {
-        if (z_unit_.empty() && noted.is_noted) {
-            z_unit_ = noted.z_unit;
-        }
-    }
-    if (z_unit_.empty()) {
-        z_unit_ = plane_.crs.z_unit();
-    }
-    const std::string of_plane = plane_.crs.z_unit();
-    if (!of_plane.empty() && !z_unit_.empty() && of_plane != z_unit_) {
-        // What is written must not claim another unit than it has.
-        plane_.crs = plane_.crs.horizontal();
-    }
-}
-
 /// Sources without a system are in the one asked for, or in the plane.
 void Placement::place_guessed_sources() {
     std::vector<std::string> files;
@@ -422,24 +337,6 @@ std::vector<std::size_t> Placement::place(std::size_t s, std::span<Point3> point
     return all;
 }
 
-/// Positions in degrees, for the geoid.
-std::vector<Point3> Placement::geographic_positions(const Noted& noted,
-                                                    std::span<const Point3> points) const {
-    const Crs& crs = noted.crs.is_known() ? noted.crs : plane_.crs;
-    if (!crs.geographic().is_known()) {
-        throw InputError("--geoid needs to know where on the earth the samples are, and " + crs.name() +
-                         " does not tell; give their CRS with crs=");
-    }
-    return in_degrees(points, crs);
-}
-
-void Placement::convert_units(std::span<Point3> points, const std::string& from, const std::string& to) {
-    const double factor = unit_factor(from, to);
-    if (factor != 1) {
-        for_each_point(points, [&](Point3& point, std::size_t) { point.z *= factor; });
-    }
-}
-
 std::vector<std::size_t> Placement::transform(const Noted& noted, std::span<Point3> points,
                                               bool has_elevations, const Progress& progress) {
     const bool is_same_way = way_ && from_.is_same(noted.crs) && has_way_elevations_ == has_elevations &&
@@ -470,29 +367,6 @@ std::vector<std::size_t> Placement::transform(const Noted& noted, std::span<Poin
         }
     });
     return failed;
-}
-
-void Placement::shift_to_wanted_heights(std::size_t s, std::span<const Point3> at, std::span<Point3> points,
-                                        const Progress& progress) {
-    using Heights = Crs::Heights;
-    const Heights wanted = options_.heights.is_to_ellipsoid ? Heights::Ellipsoidal : Heights::Gravity;
-    const Heights own = noted_[s].crs.heights();
-    if (own == wanted) {
-        return;
-    }
-    if (own == Heights::Unknown && !is_geoid_guess_told_) {
-        is_geoid_guess_told_ = true;
-        warnings_.push_back(label(sources_[s]) +
-                            ": does not say what elevations are measured from; taken to be " +
-                            (wanted == Heights::Gravity ? "above the ellipsoid" : "above the geoid") +
-                            " and shifted by --geoid");
-    }
-    ExtentGatherer extent;
-    extent.add(at);
-    geoid_->prepare(extent.extent());
-    const std::optional<LengthUnit> unit = find_length_unit(z_unit_.empty() ? plane_.crs.unit() : z_unit_);
-    shift_by_geoid(*geoid_, at, points, wanted == Heights::Gravity ? -1 : 1, unit ? unit->metres : 1,
-                   progress);
 }
 
 std::string Placement::failure(std::size_t s, const Point3& point) const {

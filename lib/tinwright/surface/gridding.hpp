@@ -80,10 +80,10 @@ struct GriddingOptions {
 
 /// Fills a raster with what a surface says at its cell centres, band of rows by band of rows.
 ///
-/// Which face a cell is on is decided exactly: by scan conversion, or where cells have places in another plane
-/// by those as rounded to the lattice that surfaces are read by (`QueryLattice`). Gradients are the surface's own, not
-/// differences of cells. Every product has a value in the same cells, those on the terrain, but for the
-/// aspect of level ones.
+/// Which face a cell is on is decided exactly: by scan conversion, or where cells have places in another
+/// plane by those as rounded to the lattice that surfaces are read by (`QueryLattice`). Gradients are the
+/// surface's own, not differences of cells. Every product has a value in the same cells, those on the
+/// terrain, but for the aspect of level ones.
 class SurfaceGridder {
   public:
     /// `surface`: how elevations and gradients are read; null: the faces themselves, by the quicker way there
