@@ -313,6 +313,91 @@ std::string times_line(const JobReport& report, const Surface& surface) {
     return times;
 }
 
+/// The report for people, line by line.
+class ReportLines {
+  public:
+    explicit ReportLines(const std::string& title) : text_(title + "\n") {}
+
+    void add(const std::string& label, const std::string& value) {
+        text_ += "  " + label + std::string(12 - label.size(), ' ') + value + "\n";
+    }
+    /// Lines that are whole already.
+    void append(const std::string& lines) { text_ += lines; }
+    [[nodiscard]] const std::string& text() const { return text_; }
+
+  private:
+    std::string text_;
+};
+
+/// Where everything lies.
+void add_place(const Surface& surface, ReportLines& lines) {
+    lines.add("CRS", crs_line(surface));
+    if (is_plane_told(surface)) {
+        lines.add("plane", surface.plane.text());
+    }
+    if (surface.ground.is_geodesic()) {
+        lines.add("lengths", "geodesic, " + surface.ground.unit);
+    }
+    const Box bounds = bounds_of(surface);
+    lines.add("extent", decimal_text(bounds.x_min) + " " + decimal_text(bounds.y_min) + " " +
+                            decimal_text(bounds.x_max) + " " + decimal_text(bounds.y_max));
+    lines.add("quantum", quantum_line(surface.tin.lattice));
+}
+
+/// What came in.
+void add_inputs(const JobReport& report, const Surface& surface, const ReportDetail& detail,
+                ReportLines& lines) {
+    if (surface.report && surface.report->duplicates.equal + surface.report->duplicates.conflicting > 0) {
+        lines.add("duplicates", duplicates_line(report, surface.report->duplicates));
+        lines.append(detail.conflicts ? conflict_lines(surface.report->duplicates, surface.output_positions())
+                                      : "");
+    }
+    for (const auto& [label, line] : lines_lines(surface.lines)) {
+        lines.add(label, line);
+    }
+    if (surface.water) {
+        for (const auto& [label, line] : water_lines(*surface.water)) {
+            lines.add(label, line);
+        }
+    } else if (const std::string water = file_water_text(surface.metadata); !water.empty()) {
+        lines.add("water", water);
+    }
+}
+
+/// What came of it.
+void add_products(const JobReport& report, const Surface& surface, ReportLines& lines) {
+    if (report.graph) {
+        lines.add("graph", graph_line(*report.graph) + " on " +
+                               counted(surface.tin.vertex_count(), "vertex", "vertices"));
+    } else {
+        lines.add("TIN", tin_line(report, surface));
+    }
+    if (surface.flat_faces) {
+        lines.add("flat faces", flat_faces_line(*surface.flat_faces));
+    }
+    std::string label = "criterion";
+    for (const std::string& line : criterion_lines(surface.criterion)) {
+        lines.add(label, line);
+        label.clear();
+    }
+    if (report.raster) {
+        lines.add("raster", raster_line(*report.raster));
+        if (report.raster->method != "linear" ||
+            report.raster->written.bands != std::vector<std::string>{"elevation"}) {
+            lines.add("method", method_line(*report.raster));
+        }
+    }
+    if (report.contours) {
+        lines.add("contours", contours_line(*report.contours));
+        if (report.contours->tracing) {
+            lines.add("traced", tracing_line(*report.contours));
+        }
+    }
+    for (const auto& [name, line] : report.details) {
+        lines.add(name, line);
+    }
+}
+
 }  // namespace
 
 std::size_t peak_memory_bytes() {
@@ -399,79 +484,24 @@ JsonValue make_json(const JobReport& report, const Surface& surface) {
 }
 
 std::string report_text(const JobReport& report, const Surface& surface, const ReportDetail& detail) {
-    std::string text = "tinwright " + report.command + ": " + input_line(surface) + "\n";
-    const auto add = [&text](const std::string& label, const std::string& value) {
-        text += "  " + label + std::string(12 - label.size(), ' ') + value + "\n";
-    };
-    add("CRS", crs_line(surface));
-    const Box bounds = bounds_of(surface);
-    if (is_plane_told(surface)) {
-        add("plane", surface.plane.text());
-    }
-    if (surface.ground.is_geodesic()) {
-        add("lengths", "geodesic, " + surface.ground.unit);
-    }
-    add("extent", decimal_text(bounds.x_min) + " " + decimal_text(bounds.y_min) + " " +
-                      decimal_text(bounds.x_max) + " " + decimal_text(bounds.y_max));
-    add("quantum", quantum_line(surface.tin.lattice));
-    if (surface.report && surface.report->duplicates.equal + surface.report->duplicates.conflicting > 0) {
-        add("duplicates", duplicates_line(report, surface.report->duplicates));
-        text +=
-            detail.conflicts ? conflict_lines(surface.report->duplicates, surface.output_positions()) : "";
-    }
-    for (const auto& [label, line] : lines_lines(surface.lines)) {
-        add(label, line);
-    }
-    if (surface.water) {
-        for (const auto& [label, line] : water_lines(*surface.water)) {
-            add(label, line);
-        }
-    } else if (const std::string water = file_water_text(surface.metadata); !water.empty()) {
-        add("water", water);
-    }
-    if (report.graph) {
-        add("graph",
-            graph_line(*report.graph) + " on " + counted(surface.tin.vertex_count(), "vertex", "vertices"));
-    } else {
-        add("TIN", tin_line(report, surface));
-    }
-    if (surface.flat_faces) {
-        add("flat faces", flat_faces_line(*surface.flat_faces));
-    }
-    std::string label = "criterion";
-    for (const std::string& line : criterion_lines(surface.criterion)) {
-        add(label, line);
-        label.clear();
-    }
-    if (report.raster) {
-        add("raster", raster_line(*report.raster));
-        if (report.raster->method != "linear" ||
-            report.raster->written.bands != std::vector<std::string>{"elevation"}) {
-            add("method", method_line(*report.raster));
-        }
-    }
-    if (report.contours) {
-        add("contours", contours_line(*report.contours));
-        if (report.contours->tracing) {
-            add("traced", tracing_line(*report.contours));
-        }
-    }
-    for (const auto& [name, line] : report.details) {
-        add(name, line);
-    }
+    ReportLines lines("tinwright " + report.command + ": " + input_line(surface));
+    add_place(surface, lines);
+    add_inputs(report, surface, detail, lines);
+    add_products(report, surface, lines);
     for (std::size_t i = 0; i < report.outputs.size(); ++i) {
         const std::string type = report.raster ? ", " + report.raster->written.data_type : std::string();
-        add("wrote", report.outputs[i] + (i == 0 ? " (" + report.output_driver + type + ")" : ""));
+        lines.add("wrote", report.outputs[i] + (i == 0 ? " (" + report.output_driver + type + ")" : ""));
     }
     const bool is_said = report.tells_slopes && is_z_unit_assumed(surface);
     if (is_said || (detail.times && !report.graph)) {
-        add("z unit", z_unit_text(surface));
+        lines.add("z unit", z_unit_text(surface));
     }
     if (detail.times) {
-        add("seconds", times_line(report, surface));
-        add("memory", fixed(static_cast<double>(peak_memory_bytes()) / 1048576.0, 0) + " MiB at the peak");
+        lines.add("seconds", times_line(report, surface));
+        lines.add("memory",
+                  fixed(static_cast<double>(peak_memory_bytes()) / 1048576.0, 0) + " MiB at the peak");
     }
-    return text;
+    return lines.text();
 }
 
 }  // namespace tinwright::tools

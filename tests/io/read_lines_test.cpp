@@ -451,14 +451,16 @@ TEST_SUITE("io/read_lines") {
         const std::string path = file.close();
         ReadLinesOptions options;
         options.crs = Crs::parse("EPSG:25832");
-        CHECK(message_of<InputError>([&] { read_one(path, LineRole::Breakline, options); })
-                  .starts_with(
-                      R"(file "/vsimem/far.gpkg", layer "l", feature 2: (9.1, 480) is no longitude and latitude)"));
+        CHECK(
+            message_of<InputError>([&] { read_one(path, LineRole::Breakline, options); })
+                .starts_with(
+                    R"(file "/vsimem/far.gpkg", layer "l", feature 2: (9.1, 480) is no longitude and latitude)"));
         options.skip_bad = true;
         CHECK(features_of(read_one(path, LineRole::Breakline, options)) == std::vector<std::int64_t>{1});
         // Without a system asked for, the lines that are somewhere choose the plane.
-        CHECK(message_of<InputError>([&] { read_one(path); }).find("feature 2: (9.1, 480) is no longitude and latitude") !=
-              std::string::npos);
+        CHECK(message_of<InputError>([&] {
+                  read_one(path);
+              }).find("feature 2: (9.1, 480) is no longitude and latitude") != std::string::npos);
     }
 
     TEST_CASE("ten thousand lines of twenty-one points are read in a fraction of a second") {

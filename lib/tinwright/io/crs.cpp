@@ -154,7 +154,7 @@ std::string Crs::code() const {
     if (system_ == nullptr) {
         return {};
     }
-    const std::string whole = code_of(*system_, nullptr);
+    std::string whole = code_of(*system_, nullptr);
     if (!whole.empty() || system_->IsCompound() == 0) {
         return whole;
     }

@@ -137,7 +137,7 @@ Crs compound(PJ_CONTEXT* context, const Crs& horizontal, const PJ* vertical) {
     const GdalMessages messages;
     const char* const name = horizontal.gdal()->GetName();
     const char* const z_name = proj_get_name(vertical);
-    const std::string both =
+    std::string both =
         (name == nullptr ? "unnamed" : name) + std::string(" + ") + (z_name == nullptr ? "" : z_name);
     return from_wkt(
         "COMPOUNDCRS[" + wkt_text(both) + "," + horizontal.wkt() + "," + wkt_of(context, vertical) + "]",
@@ -185,7 +185,7 @@ System with_z_unit_of(System system, const OGRSpatialReference& other) {
 
 /// The system by its code, which it loses on some of the ways to it.
 Crs with_code(const OGRSpatialReference& system) {
-    const Crs nameless = Crs::from_gdal(&system);
+    Crs nameless = Crs::from_gdal(&system);
     std::array<double, 7> shift{};
     const bool has_way_of_its_own = system.GetTOWGS84(shift.data(), 7) == OGRERR_NONE;
     if (!nameless.is_known() || !nameless.code().empty() || has_way_of_its_own) {
@@ -247,12 +247,12 @@ Crs Crs::geographic() const {
 }
 
 Crs Crs::with_heights_of(const Crs& other) const {
-    const Crs base = horizontal();
+    Crs base = horizontal();
     if (!base.is_known() || !other.is_known() || base.is_geocentric()) {
         return base;
     }
     if (is_three_dimensional(*other.system_)) {
-        const Crs promoted = base.with_ellipsoidal_heights();
+        Crs promoted = base.with_ellipsoidal_heights();
         if (!promoted.is_known() || !is_three_dimensional(*promoted.system_) ||
             promoted.z_unit() == other.z_unit()) {
             return promoted;
@@ -262,7 +262,7 @@ Crs Crs::with_heights_of(const Crs& other) const {
     }
     const Context context = make_context();
     const Object vertical = vertical_part(context.get(), other);
-    const Crs both = vertical ? compound(context.get(), base, vertical.get()) : Crs();
+    Crs both = vertical ? compound(context.get(), base, vertical.get()) : Crs();
     return both.is_known() ? both : base;
 }
 
@@ -272,7 +272,7 @@ Crs Crs::with_vertical(const std::string& vertical_code) const {
         throw UsageError("CRS " + quoted(vertical_code) +
                          ": not a vertical system; give for example EPSG:5773");
     }
-    const Crs both = with_heights_of(vertical);
+    Crs both = with_heights_of(vertical);
     if (!both.is_known() || both.system_->IsCompound() == 0) {
         throw UsageError("CRS " + name() + " cannot have heights in " + vertical.name() +
                          "; give a projected or geographic system");
@@ -281,7 +281,7 @@ Crs Crs::with_vertical(const std::string& vertical_code) const {
 }
 
 Crs Crs::with_ellipsoidal_heights() const {
-    const Crs base = horizontal();
+    Crs base = horizontal();
     if (!base.is_known() || (system_->IsCompound() == 0 && is_three_dimensional(*system_))) {
         return base.is_known() ? *this : base;
     }

@@ -353,7 +353,7 @@ std::vector<std::size_t> Placement::transform(const Noted& noted, std::span<Poin
     const bool is_in_place = noted.crs.is_same_horizontally(plane_.crs);
     const std::vector<Point3> before =
         is_in_place ? std::vector<Point3>(points.begin(), points.end()) : std::vector<Point3>();
-    const std::vector<std::size_t> failed = way_->forward(points, progress);
+    std::vector<std::size_t> failed = way_->forward(points, progress);
     // On a decimal lattice, with room below any meaningful precision, rows stay rows, predicates are quick,
     // and what two mathematical libraries differ by is rounded away.
     constexpr double kStepsPerUnit = 1e6;
