@@ -135,6 +135,9 @@ void set_references(const CrsOptions& options, io::WorkingPlane plane, Surface& 
         // Projected systems with ellipsoidal heights have no codes, and few programs read them.
         surface.output_crs = surface.output_crs.horizontal();
     }
+    if (!surface.output_crs.z_unit().empty() && surface.output_crs.z_unit() != surface.z_unit) {
+        surface.output_crs = surface.output_crs.horizontal();  // must not claim a unit that z does not have
+    }
     surface.ground = io::make_ground_measures(surface.plane);
     surface.z_factor = io::unit_factor(surface.z_unit, surface.crs.unit());
     surface.reference_options = options.canonical();

@@ -15,10 +15,12 @@ void bring_to(const io::OutputPositions& positions, std::vector<WaterFinding>& f
 io::Crs audit_crs(const CrsOptions& options, const io::WorkingPlane& plane) {
     const io::Crs asked = options.crs();
     const io::Crs wanted = asked.is_known() ? asked : plane.source_crs;
+    const std::string& unit = options.heights.unit;  // a system must not claim another than z has
+    const bool is_unit_kept = unit.empty() || unit == plane.crs.z_unit();
     if (!wanted.is_known() || !plane.crs.is_known() || wanted.is_same_horizontally(plane.crs)) {
-        return plane.crs;
+        return is_unit_kept ? plane.crs : plane.crs.horizontal();
     }
-    return wanted.with_heights_of(plane.crs);
+    return is_unit_kept ? wanted.with_heights_of(plane.crs) : wanted.horizontal();
 }
 
 io::OutputPositions positions_of(const io::Lines& lines, const io::Samples& samples, const io::Crs& plane,

@@ -207,6 +207,18 @@ TEST_SUITE("io/placement") {
         CHECK(message.find("us_nga_egm08_25.tif") != std::string::npos);
     }
 
+    TEST_CASE("a unit that is asked for does not make datums the same") {
+        const MemoryFile file("h.csv", "lon,lat,z\n27,60.5,100\n");
+        ReadOptions options;
+        options.crs = Crs::parse("EPSG:32635+5773");
+        const double metres = read(file.path() + ",crs=EPSG:4979", options).points[0].z;
+        CHECK(metres < 90);
+        options.heights.unit = "foot";
+        const Samples feet = read(file.path() + ",crs=EPSG:4979", options);
+        CHECK(feet.z_unit == "foot");
+        CHECK(feet.points[0].z == doctest::Approx(metres / 0.3048).epsilon(1e-12));
+    }
+
     TEST_CASE("geocentric coordinates are refused") {
         const MemoryFile file("x.csv", "x,y,z\n2800000,1400000,5500000\n");
         CHECK(

@@ -56,11 +56,6 @@ void Placement::choose_z_unit() {
     if (z_unit_.empty()) {
         z_unit_ = plane_.crs.z_unit();
     }
-    const std::string of_plane = plane_.crs.z_unit();
-    if (!of_plane.empty() && !z_unit_.empty() && of_plane != z_unit_) {
-        // What is written must not claim another unit than it has.
-        plane_.crs = plane_.crs.horizontal();
-    }
 }
 
 /// Positions in degrees, for the geoid.
